@@ -1,0 +1,82 @@
+#ifndef OUTDOOR_OMR_FILL_PIPELINE_H
+#define OUTDOOR_OMR_FILL_PIPELINE_H
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "outdoor_omr/region.h"
+#include "outdoor_omr/settings.h"
+#include "outdoor_omr/step_time.h"
+
+namespace outdoor_omr
+{
+/** The OpenCL device is absent, or it failed: the message carries the driver's words. */
+class DeviceError : public std::runtime_error
+{
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/**
+ * Image in, regions out (paper, sections 3.1 and 3.2, Table 1): filter, colour edges, seedless filling and region data
+ * on an OpenCL device.
+ *
+ * Buffers are kept between images and grow when a larger image comes. Not thread-safe: one pipeline a thread.
+ */
+class FillPipeline
+{
+ public:
+  /** What run() shall bring back beside the region data; each costs a transfer. */
+  struct Outputs
+  {
+    bool edges = false;   ///< RegionMap::edges
+    bool labels = false;  ///< RegionMap::labels
+  };
+
+  /**
+   * Chooses a device, builds the kernels and runs them once, so that the first image costs no more than the next.
+   *
+   * @param device "auto": a GPU if there is one, else a CPU device, else the reference; "gpu" or "cpu": the first of
+   * that type; "reference": plain C++; anything else: the first device whose name contains this text, regardless of
+   * case.
+   * @throws DeviceError if a device was asked for by type or name and is absent (the message lists those present), or
+   *                     when a kernel does not build (the message ends with the build log).
+   */
+  explicit FillPipeline(const std::string& device = "auto");
+  ~FillPipeline();
+  FillPipeline(FillPipeline&&) noexcept;
+  FillPipeline& operator=(FillPipeline&&) noexcept;
+
+  /**
+   * Runs the pipeline on one image.
+   *
+   * @param bgr      H x W, CV_8UC3, any row step; at most 65535 px wide and 2^31 - 1 pixels.
+   * @param settings the tunables of group "fill".
+   * @param outputs  what to bring back.
+   * @param map      receives the result; its memory is reused.
+   * @param times    if not null, receives filter, edges, labels and region data [ms].
+   * @throws std::invalid_argument if bgr is empty, too large or of another type; DeviceError if the device fails.
+   */
+  void run(const cv::Mat& bgr, const Settings& settings, const Outputs& outputs, RegionMap& map,
+           std::vector<StepTime>* times = nullptr);
+
+  /** Name of the device as its driver gives it; "reference (no OpenCL)" for plain C++. */
+  const std::string& deviceName() const;
+
+  /** Why "auto" fell back to the reference; empty when it did not. */
+  const std::string& fallbackReason() const;
+
+  /** "platform: device (type)" of every OpenCL device of this machine; empty when there is none. */
+  static std::vector<std::string> devices();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace outdoor_omr
+
+#endif

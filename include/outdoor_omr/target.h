@@ -1,0 +1,25 @@
+#ifndef OUTDOOR_OMR_TARGET_H
+#define OUTDOOR_OMR_TARGET_H
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace outdoor_omr
+{
+/** One target of concentric rings (paper, section 3.3). Positions in pixels, pixel (0, 0) has its centre at (0, 0). */
+struct Target
+{
+  /** Colours from the inner disk outwards: W white, P black, R red, G green, B blue, ? unknown. */
+  std::string colors;
+
+  /** Image of the circles' common centre; under perspective it is not the centre of the ellipses. */
+  cv::Point2d center;
+
+  /** Outer boundary of each ring as an ellipse, in the order of colors; size holds full axes [px], angle degrees. */
+  std::vector<cv::RotatedRect> rings;
+};
+
+}  // namespace outdoor_omr
+
+#endif

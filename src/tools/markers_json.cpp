@@ -1,0 +1,89 @@
+#include "markers_json.h"
+
+#include <cmath>
+
+namespace outdoor_omr
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/** A thousandth of a pixel is far below the accuracy of a corner (0.05 px). */
+double rounded(double pixels)
+{
+  return std::round(pixels * 1000) / 1000;
+}
+
+template <typename Point>
+Json toJson(const Point& point)
+{
+  return Json::array({rounded(point.x), rounded(point.y)});
+}
+
+template <typename Points>
+Json toJsonArray(const Points& points)
+{
+  Json array = Json::array();
+  for (const auto& point : points)
+  {
+    array.push_back(toJson(point));
+  }
+  return array;
+}
+
+Json toJson(const Checkerboard& board)
+{
+  return {{"rows", board.rows},
+          {"cols", board.cols},
+          {"inner_corners", toJsonArray(board.inner_corners)},
+          {"inner_corners_seen", board.inner_corners_seen},
+          {"corners", toJsonArray(board.corners)},
+          {"squares_seen", board.squares_seen},
+          {"regularity", rounded(board.regularity)},
+          {"size_certain", board.size_certain}};
+}
+
+Json toJson(const cv::RotatedRect& ellipse)
+{
+  return {{"center", toJson(ellipse.center)},
+          {"axes", Json::array({rounded(ellipse.size.width), rounded(ellipse.size.height)})},
+          {"angle", rounded(ellipse.angle)}};
+}
+
+Json toJson(const Target& target)
+{
+  Json rings = Json::array();
+  for (const cv::RotatedRect& ring : target.rings)
+  {
+    rings.push_back(toJson(ring));
+  }
+  return {{"colors", target.colors}, {"center", toJson(target.center)}, {"rings", rings}};
+}
+}  // namespace
+
+Json toJson(const std::string& image, const cv::Size& size, const Markers& markers)
+{
+  Json steps = Json::object();
+  double total = 0;
+  for (const StepTime& time : markers.times)
+  {
+    steps[time.step] = rounded(time.milliseconds);
+    total += time.milliseconds;
+  }
+  Json checkerboards = Json::array();
+  for (const Checkerboard& board : markers.checkerboards)
+  {
+    checkerboards.push_back(toJson(board));
+  }
+  Json targets = Json::array();
+  for (const Target& target : markers.targets)
+  {
+    targets.push_back(toJson(target));
+  }
+  return {{"image", image},        {"width", size.width},
+          {"height", size.height}, {"time_ms", rounded(total)},
+          {"steps_ms", steps},     {"checkerboards", checkerboards},
+          {"targets", targets}};
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,17 @@
+#ifndef OUTDOOR_OMR_TOOLS_MARKERS_JSON_H
+#define OUTDOOR_OMR_TOOLS_MARKERS_JSON_H
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "outdoor_omr/detector.h"
+
+namespace outdoor_omr
+{
+/** One image's markers as the JSON object that omr_detect writes on a line of its own (README, "Command line"). */
+nlohmann::ordered_json toJson(const std::string& image, const cv::Size& size, const Markers& markers);
+
+}  // namespace outdoor_omr
+
+#endif
