@@ -11,7 +11,7 @@ namespace outdoor_omr
  * Exact integer sums over the pixels of one contiguous region; every implementation delivers the same bits, so the
  * device code is compared with the reference with ==.
  *
- * The layout is shared with kernels/record.cl (120 bytes, no padding).
+ * The layout is shared with kernels/record.cl (104 bytes, no padding).
  */
 struct RegionSums
 {

@@ -10,6 +10,9 @@ namespace outdoor_omr
 {
 namespace
 {
+// A region of interest ends at its own border: without BORDER_ISOLATED OpenCV reads the pixels around it.
+constexpr int BORDER = cv::BORDER_REPLICATE | cv::BORDER_ISOLATED;
+
 void checkBgr(const cv::Mat& bgr)
 {
   if (bgr.empty() || bgr.type() != CV_8UC3)
@@ -52,7 +55,7 @@ cv::Mat filterImage(const cv::Mat& bgr, Filter filter, int size)
   cv::Mat filtered;
   if (filter == Filter::gaussian)
   {
-    cv::GaussianBlur(bgr, filtered, cv::Size(size, size), 0, 0, cv::BORDER_REPLICATE);
+    cv::GaussianBlur(bgr, filtered, cv::Size(size, size), 0, 0, BORDER);
   }
   else
   {
@@ -66,8 +69,8 @@ cv::Mat edgeMask(const cv::Mat& bgr, int threshold)
   checkBgr(bgr);
   cv::Mat gx;
   cv::Mat gy;
-  cv::Sobel(bgr, gx, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-  cv::Sobel(bgr, gy, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+  cv::Sobel(bgr, gx, CV_16S, 1, 0, 3, 1, 0, BORDER);
+  cv::Sobel(bgr, gy, CV_16S, 0, 1, 3, 1, 0, BORDER);
   cv::Mat edges(bgr.size(), CV_8UC1);
   for (int y = 0; y < bgr.rows; ++y)
   {

@@ -1,0 +1,137 @@
+#include "device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "outdoor_omr/fill_pipeline.h"
+
+namespace outdoor_omr
+{
+namespace
+{
+std::string lowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+cl_device_type typeOf(const Device& device)
+{
+  return device.device.getInfo<CL_DEVICE_TYPE>();
+}
+
+std::string typeName(cl_device_type type)
+{
+  return (type & CL_DEVICE_TYPE_GPU) ? "GPU" : (type & CL_DEVICE_TYPE_CPU) ? "CPU" : "accelerator";
+}
+
+bool usable(const cl::Device& device)
+{
+  // The kernels add 64-bit sums in two halves and count on the lower one coming first.
+  return device.getInfo<CL_DEVICE_AVAILABLE>() && device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>() &&
+         device.getInfo<CL_DEVICE_ENDIAN_LITTLE>();
+}
+
+/** GPUs first, then CPUs, then the rest. */
+int preference(const Device& device)
+{
+  const cl_device_type type = typeOf(device);
+  return (type & CL_DEVICE_TYPE_GPU) ? 0 : (type & CL_DEVICE_TYPE_CPU) ? 1 : 2;
+}
+
+bool matches(const Device& device, const std::string& name)
+{
+  if (name == "gpu")
+  {
+    return (typeOf(device) & CL_DEVICE_TYPE_GPU) != 0;
+  }
+  if (name == "cpu")
+  {
+    return device.cpu;
+  }
+  return lowerCase(device.description).find(name) != std::string::npos;
+}
+}  // namespace
+
+std::vector<Device> findDevices()
+{
+  std::vector<Device> found;
+  std::vector<cl::Platform> platforms;
+  try
+  {
+    cl::Platform::get(&platforms);
+  }
+  catch (const cl::Error&)  // the loader's way to say that no driver is installed
+  {
+    return found;
+  }
+  for (const cl::Platform& platform : platforms)
+  {
+    try
+    {
+      std::vector<cl::Device> devices;
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+      for (const cl::Device& device : devices)
+      {
+        if (usable(device))
+        {
+          const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+          found.push_back({device,
+                           platform.getInfo<CL_PLATFORM_NAME>() + ": " + device.getInfo<CL_DEVICE_NAME>() + " (" +
+                               typeName(type) + ")",
+                           (type & CL_DEVICE_TYPE_CPU) != 0});
+        }
+      }
+    }
+    catch (const cl::Error&)
+    {
+      continue;  // a platform without devices, or with a broken driver: the others still count
+    }
+  }
+  return found;
+}
+
+std::vector<Device> selectDevices(const std::string& name)
+{
+  const std::vector<Device> present = findDevices();
+  std::vector<Device> selected;
+  if (name == "auto")
+  {
+    selected = present;
+    std::stable_sort(selected.begin(), selected.end(),
+                     [](const Device& a, const Device& b) { return preference(a) < preference(b); });
+    return selected;
+  }
+  std::copy_if(present.begin(), present.end(), std::back_inserter(selected),
+               [key = lowerCase(name)](const Device& device) { return matches(device, key); });
+  if (name.empty() || selected.empty())
+  {
+    std::string message = "no OpenCL device fits '" + name + "'; present: ";
+    for (const Device& device : present)
+    {
+      message += (&device == present.data() ? "" : ", ") + device.description;
+    }
+    throw DeviceError(message + (present.empty() ? "none" : ""));
+  }
+  return selected;
+}
+
+std::string describeError(const cl::Error& error, const std::string& device)
+{
+  static const std::map<cl_int, std::string> names = {
+      {CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE"},
+      {CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE"},
+      {CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
+      {CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES"},
+      {CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY"},
+      {CL_BUILD_PROGRAM_FAILURE, "CL_BUILD_PROGRAM_FAILURE"},
+      {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
+      {CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE"},
+      {CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST, "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"}};
+  const auto name = names.find(error.err());
+  return std::string(error.what()) + " failed on " + device + ": " +
+         (name == names.end() ? "OpenCL error" : name->second) + " (" + std::to_string(error.err()) + ")";
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,121 @@
+#ifndef OUTDOOR_OMR_GPU_DEVICE_FILL_H
+#define OUTDOOR_OMR_GPU_DEVICE_FILL_H
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "device.h"
+#include "fill_buffers.h"
+#include "outdoor_omr/region.h"
+#include "outdoor_omr/settings.h"
+#include "program.h"
+
+namespace outdoor_omr
+{
+/** Which kernels a device gets; the results are the same. */
+enum class Geometry
+{
+  strips,  ///< CPU: a work-item takes a strip of rows
+  words    ///< GPU: a work-item takes a pixel or a word of 64 pixels
+};
+
+/** Areas of the regions that are asked for [px], inclusive. */
+struct AreaWindow
+{
+  cl_uint min = 1;
+  cl_uint max = 0xffffffffU;
+};
+
+/**
+ * The steps of the fill pipeline on one OpenCL device, to be called in the order of their declaration. A step enqueues
+ * its kernels and returns; what waits says so. All may throw cl::Error.
+ */
+class DeviceFill
+{
+ public:
+  /** Builds the kernels and runs each of them once. @throws DeviceError with the build log if they do not build. */
+  DeviceFill(const Device& device, Geometry geometry);
+
+  /** Hands an image (CV_8UC3, not empty) to the device, which reads it until finish(). */
+  void loadImage(const cv::Mat& bgr);
+
+  void filter(Filter filter, int size);
+  void findEdges(int threshold);
+
+  /** In the place of findEdges(): takes an edge mask (CV_8UC1, 0 = region) of the image's size; waits. */
+  void loadEdges(const cv::Mat& edges);
+
+  /** Brings the edge image (CV_8UC1) to the host by the time of finish(). */
+  void readEdges(cv::Mat& edges);
+
+  /**
+   * Finds the regions; waits for each round of FillMethod::sweep.
+   *
+   * @param sweep_rounds after so many rounds of sweeps the runs take over.
+   * @return             the method that gave the labels.
+   */
+  FillMethod labelRegions(FillMethod method, int sweep_rounds);
+
+  /** Brings the labels (CV_32SC1) to the host by the time of finish(). */
+  void readLabels(cv::Mat& labels);
+
+  /** Sums the region data; distances only for the regions in the window. */
+  void sumRegions(const AreaWindow& window);
+
+  /**
+   * Reads the sums of the regions in the window, ascending label; waits. When the image has more regions than the
+   * buffers hold, they grow and sumRegions() is repeated.
+   *
+   * @return the number of all regions, in the window or not.
+   */
+  int readSums(std::vector<RegionSums>& sums);
+
+  /** Waits until all is done and lets go of the image. */
+  void finish();
+
+  /** Device time of the steps since loadImage(), each with what precedes it [ms]; 0 for a step that did not run. */
+  struct Times
+  {
+    double filter = 0;
+    double edges = 0;
+    double labels = 0;
+  };
+  Times times() const;
+
+ private:
+  template <typename... Arguments>
+  void launch(const std::string& kernel, const Groups& groups, const Arguments&... arguments);
+  template <typename Write>
+  void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
+  void warmUp();
+  void findRuns(const Strips& strips);
+  bool sweep(int rounds);
+  void mergeSeams();
+  void findRegions();
+  void reportRegions();
+  Groups rows() const;
+  Groups strips() const;
+  Groups words(int row_count) const;
+
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  Program program_;
+  Geometry geometry_;
+  bool shares_memory_;  ///< a CPU device works on the host's memory in place
+  int compute_units_;
+  FillBuffers buffers_;
+  GrowingBuffer upload_, edge_image_, label_image_, sweep_labels_;
+  cv::Mat bgr_;       ///< holds the pixels until finish()
+  cl::Buffer image_;  ///< what the next step reads: the loaded or the filtered image
+  cl_long step_ = 0;  ///< bytes from row to row of it
+  cv::Size size_;
+  Strips strips_;
+  AreaWindow window_;
+  cl_uint expected_reports_ = 64;
+  cl::Event last_event_, loaded_, filtered_, edges_found_, labelled_;
+};
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,77 @@
+#ifndef OUTDOOR_OMR_GPU_FILL_BUFFERS_H
+#define OUTDOOR_OMR_GPU_FILL_BUFFERS_H
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+
+#include "opencl.h"
+
+namespace outdoor_omr
+{
+/** How the runs are cut into pieces of work, see kernels/runs.cl. */
+struct Strips
+{
+  int rows = 1;         ///< rows of a strip
+  bool united = false;  ///< one lane unites the runs of a strip without atomics (CPU); else every run is a slot
+  int count(int height) const
+  {
+    return (height + rows - 1) / rows;
+  }
+};
+
+/** The counters of one image: the struct Counters of kernels/record.cl. */
+struct Counters
+{
+  cl_uint records = 0;
+  cl_uint regions = 0;
+  cl_uint reported = 0;
+  cl_uint changed = 0;
+};
+
+/** A device buffer that only grows. */
+class GrowingBuffer
+{
+ public:
+  /** Makes room for count elements of a size; the content is lost when it grows. */
+  void reserve(const cl::Context& context, std::size_t count, std::size_t element_size);
+
+  const cl::Buffer& operator*() const
+  {
+    return buffer_;
+  }
+
+ private:
+  cl::Buffer buffer_;
+  std::size_t bytes_ = 0;
+};
+
+/** What the kernels keep on the device between two steps; the layouts are those of kernels/runs.cl and merge.cl. */
+struct FillBuffers
+{
+  GrowingBuffer filtered;     ///< H x W x 3 bytes
+  GrowingBuffer mask;         ///< 1 bit a pixel, see kernels/mask.cl
+  GrowingBuffer runs;         ///< start and end of every run
+  GrowingBuffer row_first;    ///< of each row: its first run
+  GrowingBuffer row_runs;     ///< of each row: number of runs
+  GrowingBuffer rank;         ///< of each word: runs of the row before it
+  GrowingBuffer run_slot;     ///< of each run: its slot
+  GrowingBuffer parent;       ///< of each slot: union-find parent
+  GrowingBuffer slot_label;   ///< of each slot: its first pixel
+  GrowingBuffer slot_record;  ///< of each slot: its record
+  GrowingBuffer strip_slots;  ///< of each strip: number of slots
+  GrowingBuffer prefix;       ///< of each strip: channel sums along a row
+  GrowingBuffer counters;
+  GrowingBuffer records;   ///< of regions or of their parts
+  GrowingBuffer reported;  ///< records in the window of areas
+  cl_uint record_capacity = 0;
+  cl_uint reported_capacity = 0;
+
+  /** Makes room for an image. @throws cl::Error if the device has none. */
+  void reserve(const cl::Context& context, const cv::Size& size, const Strips& strips);
+  void reserveRecords(const cl::Context& context, cl_uint count);
+  void reserveReported(const cl::Context& context, cl_uint count);
+};
+
+}  // namespace outdoor_omr
+
+#endif

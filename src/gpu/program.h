@@ -1,0 +1,50 @@
+#ifndef OUTDOOR_OMR_GPU_PROGRAM_H
+#define OUTDOOR_OMR_GPU_PROGRAM_H
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "opencl.h"
+
+namespace outdoor_omr
+{
+/** Number of work-groups of a launch. */
+struct Groups
+{
+  std::size_t x = 1;
+  std::size_t y = 1;
+};
+
+/** The kernels of kernels/, built for one device. */
+class Program
+{
+ public:
+  /**
+   * @param lanes work-items of a group, see kernels/geometry.cl.
+   * @throws DeviceError with the build log if the device's compiler refuses the sources; cl::Error otherwise.
+   */
+  Program(const cl::Context& context, const cl::Device& device, int lanes);
+
+  /** Enqueues the kernel called name; the event follows it. */
+  template <typename... Arguments>
+  cl::Event launch(const cl::CommandQueue& queue, const std::string& name, const Groups& groups,
+                   const Arguments&... arguments)
+  {
+    cl::Kernel& kernel = kernels_.at(name);
+    cl_uint index = 0;
+    (kernel.setArg(index++, arguments), ...);
+    cl::Event event;
+    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups.x * lanes_, groups.y), cl::NDRange(lanes_, 1),
+                               nullptr, &event);
+    return event;
+  }
+
+ private:
+  std::size_t lanes_;
+  std::map<std::string, cl::Kernel> kernels_;
+};
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,423 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+#include "device_fill.h"
+#include "edge_patterns.h"
+#include "outdoor_omr/fill_pipeline.h"
+#include "outdoor_omr/reference_fill.h"
+#include "scene.h"
+
+using outdoor_omr::AreaWindow;
+using outdoor_omr::DeviceError;
+using outdoor_omr::DeviceFill;
+using outdoor_omr::FillMethod;
+using outdoor_omr::FillPipeline;
+using outdoor_omr::Filter;
+using outdoor_omr::Geometry;
+using outdoor_omr::RegionMap;
+using outdoor_omr::RegionSums;
+using outdoor_omr::Settings;
+
+namespace
+{
+constexpr int SWEEP_ROUNDS = 100000;
+
+bool equal(const cv::Mat& a, const cv::Mat& b)
+{
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+cv::Mat noiseImage(const cv::Size& size)
+{
+  cv::Mat image(size, CV_8UC3);
+  cv::theRNG().state = 5;
+  cv::randu(image, 0, 256);
+  return image;
+}
+
+void expectSameSums(const std::vector<RegionSums>& expected, const std::vector<RegionSums>& actual)
+{
+  ASSERT_EQ(expected.size(), actual.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const RegionSums& e = expected[i];
+    const RegionSums& a = actual[i];
+    const auto exact = [](const RegionSums& s) {
+      return std::vector<std::uint64_t>{s.x,
+                                        s.y,
+                                        s.xx,
+                                        s.xy,
+                                        s.yy,
+                                        s.blue,
+                                        s.green,
+                                        s.red,
+                                        s.area,
+                                        s.perimeter,
+                                        static_cast<std::uint64_t>(s.label),
+                                        static_cast<std::uint64_t>(s.min_x),
+                                        static_cast<std::uint64_t>(s.min_y),
+                                        static_cast<std::uint64_t>(s.max_x),
+                                        static_cast<std::uint64_t>(s.max_y)};
+    };
+    ASSERT_EQ(exact(e), exact(a)) << "region " << i << " with label " << e.label;
+    ASSERT_NEAR(static_cast<double>(e.distance), static_cast<double>(a.distance), 1e-3 * e.distance) << e.label;
+  }
+}
+
+/** The steps on the device against the reference, with every region in the window. */
+class DeviceFillTest : public testing::TestWithParam<Geometry>
+{
+ protected:
+  void SetUp() override
+  {
+    const std::vector<outdoor_omr::Device> devices = outdoor_omr::selectDevices("auto");
+    if (devices.empty())
+    {
+      GTEST_SKIP() << "no OpenCL device";
+    }
+    auto& fill = fills()[GetParam()];  // built once: the kernels take seconds to compile
+    if (!fill)
+    {
+      fill = std::make_unique<DeviceFill>(devices.front(), GetParam());
+    }
+    fill_ = fill.get();
+  }
+
+  static std::map<Geometry, std::unique_ptr<DeviceFill>>& fills()
+  {
+    static std::map<Geometry, std::unique_ptr<DeviceFill>> all;
+    return all;
+  }
+
+  /** Labels and sums of an edge mask, by both methods. */
+  void checkEdges(const cv::Mat& edges)
+  {
+    const cv::Mat image = noiseImage(edges.size());
+    const cv::Mat expected_labels = outdoor_omr::labelRegions(edges);
+    const std::vector<RegionSums> expected = outdoor_omr::sumRegions(image, edges, expected_labels);
+    for (const FillMethod method : {FillMethod::runs, FillMethod::sweep})
+    {
+      cv::Mat labels;
+      cv::Mat edge_image;
+      std::vector<RegionSums> sums;
+      fill_->loadImage(image);
+      fill_->loadEdges(edges);
+      fill_->readEdges(edge_image);
+      EXPECT_EQ(method, fill_->labelRegions(method, SWEEP_ROUNDS));
+      fill_->readLabels(labels);
+      fill_->sumRegions(AreaWindow());
+      EXPECT_EQ(static_cast<int>(expected.size()), fill_->readSums(sums));
+      fill_->finish();
+      EXPECT_TRUE(equal(edges, edge_image));
+      EXPECT_TRUE(equal(expected_labels, labels)) << "method " << static_cast<int>(method);
+      expectSameSums(expected, sums);
+    }
+  }
+
+  /** Everything of an image, by runs. */
+  void checkImage(const cv::Mat& image, Filter filter, int size, int threshold)
+  {
+    const cv::Mat filtered = outdoor_omr::filterImage(image, filter, size);
+    const cv::Mat expected_edges = outdoor_omr::edgeMask(filtered, threshold);
+    const cv::Mat expected_labels = outdoor_omr::labelRegions(expected_edges);
+    const std::vector<RegionSums> expected = outdoor_omr::sumRegions(filtered, expected_edges, expected_labels);
+    cv::Mat edges;
+    cv::Mat labels;
+    std::vector<RegionSums> sums;
+    fill_->loadImage(image);
+    fill_->filter(filter, size);
+    fill_->findEdges(threshold);
+    fill_->readEdges(edges);
+    fill_->labelRegions(FillMethod::runs, 0);
+    fill_->readLabels(labels);
+    fill_->sumRegions(AreaWindow());
+    EXPECT_EQ(static_cast<int>(expected.size()), fill_->readSums(sums));
+    fill_->finish();
+    EXPECT_TRUE(equal(expected_edges, edges));
+    EXPECT_TRUE(equal(expected_labels, labels));
+    expectSameSums(expected, sums);
+  }
+
+  DeviceFill* fill_ = nullptr;
+};
+
+std::string messageOf(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const DeviceError& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+/** FillPipeline with every region reported. */
+Settings allRegions()
+{
+  Settings settings;
+  settings.region_min_area = 1;
+  settings.region_max_share = 1;
+  return settings;
+}
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(Geometries, DeviceFillTest, testing::Values(Geometry::strips, Geometry::words),
+                         [](const auto& info) { return info.param == Geometry::strips ? "strips" : "words"; });
+
+TEST_P(DeviceFillTest, everyFilterOnAScene)
+{
+  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  checkImage(scene, Filter::none, 3, 100);
+  for (const int size : {3, 5})
+  {
+    checkImage(scene, Filter::gaussian, size, 100);
+    checkImage(scene, Filter::median, size, 60);
+  }
+}
+
+TEST_P(DeviceFillTest, everyFilterOnOddSizes)
+{
+  for (const cv::Size& size : {cv::Size(1, 1), cv::Size(2, 1), cv::Size(1, 2), cv::Size(131, 1), cv::Size(1, 97),
+                               cv::Size(3, 5), cv::Size(15, 33), cv::Size(17, 16), cv::Size(63, 31), cv::Size(64, 64),
+                               cv::Size(65, 17), cv::Size(127, 101), cv::Size(513, 3), cv::Size(1031, 37)})
+  {
+    SCOPED_TRACE(testing::Message() << size.width << " x " << size.height);
+    const cv::Mat image = noiseImage(size);
+    checkImage(image, Filter::none, 3, 700);
+    checkImage(image, Filter::gaussian, 3, 200);
+    checkImage(image, Filter::gaussian, 5, 100);
+    checkImage(image, Filter::median, 3, 250);
+    checkImage(image, Filter::median, 5, 120);
+  }
+}
+
+TEST_P(DeviceFillTest, extremeThresholds)
+{
+  const cv::Mat image = noiseImage({150, 70});
+  checkImage(image, Filter::none, 3, 1);
+  checkImage(image, Filter::none, 3, 2039);
+  checkImage(image, Filter::none, 3, 2040);
+}
+
+TEST_P(DeviceFillTest, regionOfInterestEndsAtItsBorder)
+{
+  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  const cv::Mat part = scene(cv::Rect(33, 21, 401, 253));
+  ASSERT_FALSE(part.isContinuous());
+  for (const Filter filter : {Filter::none, Filter::gaussian, Filter::median})
+  {
+    checkImage(part, filter, 5, 80);
+  }
+}
+
+TEST_P(DeviceFillTest, edgePatterns)
+{
+  for (const auto& pattern : outdoor_omr::edgePatterns({190, 130}))
+  {
+    SCOPED_TRACE(pattern.name);
+    checkEdges(pattern.edges);
+  }
+}
+
+TEST_P(DeviceFillTest, edgePatternsOfChangingSize)
+{
+  for (const cv::Size& size : {cv::Size(67, 41), cv::Size(1, 1), cv::Size(64, 70), cv::Size(200, 1), cv::Size(1, 200),
+                               cv::Size(128, 16), cv::Size(129, 33), cv::Size(191, 65)})
+  {
+    for (const auto& pattern : outdoor_omr::edgePatterns(size))
+    {
+      SCOPED_TRACE(testing::Message() << pattern.name << " " << size.width << " x " << size.height);
+      checkEdges(pattern.edges);
+    }
+  }
+}
+
+TEST_P(DeviceFillTest, runsAndChannelSumsOfAVeryWideImage)
+{
+  const cv::Mat white(3, 65535, CV_8UC3, cv::Scalar(255, 254, 253));
+  checkImage(white, Filter::none, 3, 100);
+}
+
+TEST_P(DeviceFillTest, moreRegionsThanTheBuffersHold)
+{
+  cv::Mat edges(1000, 1000, CV_8UC1);
+  for (int y = 0; y < edges.rows; ++y)
+  {
+    for (int x = 0; x < edges.cols; ++x)
+    {
+      edges.at<uchar>(y, x) = (x + y) % 2 ? 255 : 0;
+    }
+  }
+  checkEdges(edges);
+  checkImage(outdoor_omr::drawScene({320, 200}), Filter::gaussian, 3, 100);
+}
+
+TEST_P(DeviceFillTest, sweepThatDoesNotSettleLeavesTheLabelsToTheRuns)
+{
+  const cv::Mat edges = outdoor_omr::serpentine({100, 60});
+  cv::Mat labels;
+  fill_->loadImage(noiseImage(edges.size()));
+  fill_->loadEdges(edges);
+  EXPECT_EQ(FillMethod::runs, fill_->labelRegions(FillMethod::sweep, 3));
+  fill_->readLabels(labels);
+  fill_->finish();
+  EXPECT_TRUE(equal(outdoor_omr::labelRegions(edges), labels));
+}
+
+TEST(FillPipeline, agreesWithTheReference)
+{
+  const cv::Mat scene = outdoor_omr::drawScene({641, 479});
+  FillPipeline device("auto");
+  FillPipeline reference("reference");
+  for (const FillMethod method : {FillMethod::runs, FillMethod::sweep})
+  {
+    Settings settings = method == FillMethod::runs ? Settings() : allRegions();
+    settings.fill_method = method;
+    RegionMap expected;
+    RegionMap actual;
+    FillPipeline::Outputs both;
+    both.edges = both.labels = true;
+    reference.run(scene, settings, both, expected);
+    device.run(scene, settings, both, actual);
+    EXPECT_EQ(expected.size, actual.size);
+    EXPECT_EQ(expected.region_count, actual.region_count);
+    EXPECT_TRUE(equal(expected.edges, actual.edges));
+    EXPECT_TRUE(equal(expected.labels, actual.labels));
+    ASSERT_EQ(expected.regions.size(), actual.regions.size());
+    ASSERT_GT(expected.regions.size(), 100U);
+    for (std::size_t i = 0; i < expected.regions.size(); ++i)
+    {
+      EXPECT_EQ(expected.regions[i].label, actual.regions[i].label);
+      EXPECT_EQ(expected.regions[i].area, actual.regions[i].area);
+      EXPECT_EQ(expected.regions[i].color, actual.regions[i].color);
+      EXPECT_EQ(expected.regions[i].center, actual.regions[i].center);
+      EXPECT_NEAR(expected.regions[i].mean_distance, actual.regions[i].mean_distance,
+                  1e-3 * expected.regions[i].mean_distance);
+    }
+  }
+}
+
+TEST(FillPipeline, reportsOnlyTheAreasAskedFor)
+{
+  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  Settings settings;
+  settings.region_min_area = 50;
+  settings.region_max_share = 0.01;
+  for (const char* device : {"auto", "reference"})
+  {
+    FillPipeline pipeline(device);
+    RegionMap map;
+    pipeline.run(scene, settings, FillPipeline::Outputs(), map);
+    EXPECT_TRUE(map.edges.empty());
+    EXPECT_TRUE(map.labels.empty());
+    EXPECT_FALSE(map.regions.empty());
+    EXPECT_GT(map.region_count, static_cast<int>(map.regions.size()));
+    int previous = -1;
+    for (const outdoor_omr::Region& region : map.regions)
+    {
+      EXPECT_GE(region.area, 50);
+      EXPECT_LE(region.area, 3072);
+      EXPECT_LT(previous, region.label);
+      previous = region.label;
+    }
+  }
+}
+
+TEST(FillPipeline, keepsOutputsThatAPreviousImageLeftInAnotherShape)
+{
+  FillPipeline pipeline;
+  FillPipeline::Outputs both;
+  both.edges = both.labels = true;
+  RegionMap map;
+  cv::Mat larger(300, 300, CV_32SC1, cv::Scalar(7));
+  map.labels = larger(cv::Rect(5, 5, 90, 70));  // right size, but rows apart
+  const cv::Mat image = noiseImage({90, 70});
+  pipeline.run(image, Settings(), both, map);
+  const cv::Mat filtered = outdoor_omr::filterImage(image, Settings().filter, Settings().filter_size);
+  EXPECT_TRUE(
+      equal(outdoor_omr::labelRegions(outdoor_omr::edgeMask(filtered, Settings().sobel_threshold)), map.labels));
+  EXPECT_EQ(0, cv::norm(larger, cv::Mat(300, 300, CV_32SC1, cv::Scalar(7)), cv::NORM_INF));
+}
+
+TEST(FillPipeline, stepTimesAddUpToThePositiveWhole)
+{
+  for (const char* device : {"auto", "reference"})
+  {
+    FillPipeline pipeline(device);
+    RegionMap map;
+    std::vector<outdoor_omr::StepTime> times;
+    pipeline.run(outdoor_omr::drawScene({640, 480}), Settings(), FillPipeline::Outputs(), map, &times);
+    ASSERT_EQ(4U, times.size());
+    EXPECT_EQ("filter", times[0].step);
+    EXPECT_EQ("edges", times[1].step);
+    EXPECT_EQ("labels", times[2].step);
+    EXPECT_EQ("region data", times[3].step);
+    for (const outdoor_omr::StepTime& time : times)
+    {
+      EXPECT_GT(time.milliseconds, 0) << time.step;
+    }
+  }
+}
+
+TEST(FillPipeline, refusesWrongInput)
+{
+  for (const char* device : {"auto", "reference"})
+  {
+    FillPipeline pipeline(device);
+    RegionMap map;
+    const FillPipeline::Outputs none;
+    const cv::Mat good(4, 4, CV_8UC3, cv::Scalar::all(9));
+    EXPECT_THROW(pipeline.run(cv::Mat(), Settings(), none, map), std::invalid_argument);
+    EXPECT_THROW(pipeline.run(cv::Mat(4, 4, CV_8UC1), Settings(), none, map), std::invalid_argument);
+    EXPECT_THROW(pipeline.run(cv::Mat(4, 4, CV_16UC3), Settings(), none, map), std::invalid_argument);
+    EXPECT_THROW(pipeline.run(cv::Mat(1, 65536, CV_8UC3), Settings(), none, map), std::invalid_argument);
+    Settings wrong;
+    wrong.filter_size = 4;
+    EXPECT_THROW(pipeline.run(good, wrong, none, map), std::invalid_argument);
+    EXPECT_NO_THROW(pipeline.run(good, Settings(), none, map));
+    EXPECT_EQ(1, map.region_count);
+  }
+}
+
+TEST(FillPipeline, saysWhichDevicesArePresentWhenTheOneAskedForIsNot)
+{
+  for (const char* name : {"Voodoo Graphics", ""})
+  {
+    const std::string message = messageOf([&] { FillPipeline pipeline(name); });
+    EXPECT_NE(std::string::npos, message.find("no OpenCL device fits '" + std::string(name) + "'; present: "));
+    for (const std::string& device : FillPipeline::devices())
+    {
+      EXPECT_NE(std::string::npos, message.find(device)) << message;
+    }
+  }
+}
+
+TEST(FillPipeline, findsADeviceByAPartOfItsName)
+{
+  for (const std::string& device : FillPipeline::devices())
+  {
+    std::string part = device.substr(device.find(": ") + 2, 8);
+    std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return std::toupper(c); });
+    EXPECT_FALSE(FillPipeline(part).deviceName().empty());
+    break;
+  }
+}
+
+TEST(FillPipeline, theReferenceNeedsNoDevice)
+{
+  const FillPipeline pipeline("reference");
+  EXPECT_EQ("reference (no OpenCL)", pipeline.deviceName());
+  EXPECT_EQ("", pipeline.fallbackReason());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
