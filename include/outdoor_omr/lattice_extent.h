@@ -1,0 +1,61 @@
+#ifndef OUTDOOR_OMR_LATTICE_EXTENT_H
+#define OUTDOOR_OMR_LATTICE_EXTENT_H
+
+#include <array>
+
+#include "outdoor_omr/corner_look.h"
+#include "outdoor_omr/lattice.h"
+
+namespace outdoor_omr
+{
+enum Side
+{
+  top,
+  right,
+  bottom,
+  left
+};
+constexpr std::array<Side, 4> SIDES = {top, right, bottom, left};
+
+/** What is seen of a line of outer corners, where the rim squares of a board meet its margin. */
+struct BorderLine
+{
+  int places = 0;   ///< outer corners forecast inside the picture
+  int outside = 0;  ///< outer corners forecast outside the picture
+  int seen = 0;     ///< those of them that are there
+
+  /** The board ends at this line. */
+  bool ends() const;
+};
+
+/**
+ * Looks at the places beside the lattice where the board would end.
+ *
+ * @param distance 1: the line beside the outermost inner corners; 0: that line itself; more: beyond it.
+ */
+BorderLine lookAtBorder(const Lattice& lattice, CornerLooker& looker, Side side, int distance);
+
+/** Finds corners beyond what hides a part of the board, up to three squares away; not across a border, where the next
+ * board may begin. */
+void jumpGaps(Lattice& lattice, CornerLooker& looker);
+
+/** Takes back corners that a smooth surface through all of them does not admit, as the edge of a shadow or the next
+ * object made them. */
+void dropOutliers(Lattice& lattice);
+
+/** How well each side of the settled box is known. */
+struct Extent
+{
+  std::array<bool, 4> border_seen = {};  ///< by Side: the border of the board is seen there
+  std::array<bool, 4> cut = {};          ///< by Side: the border lies outside the picture
+};
+
+/**
+ * Settles the box: drops outer lines that little speaks for, and adds lines of hidden inner corners when the border is
+ * seen beyond them.
+ */
+Extent settleExtent(Lattice& lattice, CornerLooker& looker);
+
+}  // namespace outdoor_omr
+
+#endif
