@@ -18,6 +18,14 @@ struct CornerLook
   float correlation = 0;  ///< of the ring with four alternating quadrants [0, 1], in grey levels or their logarithm
 };
 
+/** What the image shows where a board would end. */
+enum class RimLook
+{
+  outer_corner,  ///< one quadrant dark, the other three alike light: a dark square in the margin
+  inner_corner,  ///< four squares: the board goes on
+  unclear
+};
+
 /** What is asked of a corner. */
 struct CornerQuery
 {
@@ -47,13 +55,12 @@ class CornerLooker
   CornerLook look(const LocalFrame& predicted, const CornerQuery& query);
 
   /**
-   * Whether the outer corner of a single dark square lies at the prediction: one quadrant dark, the other three alike
-   * light. It marks where a board ends.
+   * Looks where a dark square of the rim would meet the margin, without refinement.
    *
    * @param dark_u, dark_v +1 or -1: the quadrant of the dark square.
    * @param contrast       of the known corners near by [grey levels].
    */
-  bool isOuterCorner(const LocalFrame& predicted, int dark_u, int dark_v, float contrast);
+  RimLook lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const;
 
   int looksLeft() const
   {

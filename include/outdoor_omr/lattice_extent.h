@@ -23,6 +23,7 @@ struct BorderLine
   int places = 0;   ///< outer corners forecast inside the picture
   int outside = 0;  ///< outer corners forecast outside the picture
   int seen = 0;     ///< those of them that are there
+  int goes_on = 0;  ///< places where four squares meet instead
 
   /** The board ends at this line. */
   bool ends() const;
@@ -43,18 +44,22 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker);
  * object made them. */
 void dropOutliers(Lattice& lattice);
 
-/** How well each side of the settled box is known. */
-struct Extent
+/** How well the end of the board is known on one side of the settled box. */
+enum class SideEvidence
 {
-  std::array<bool, 4> border_seen = {};  ///< by Side: the border of the board is seen there
-  std::array<bool, 4> cut = {};          ///< by Side: the border lies outside the picture
+  border,  ///< the border of the board is seen
+  rim,     ///< the last line of inner corners is seen, not the border: a narrow margin, or little of it is visible
+  cut,     ///< the border lies outside the picture
+  none     ///< hidden: the board may go on
 };
 
 /**
  * Settles the box: drops outer lines that little speaks for, and adds lines of hidden inner corners when the border is
  * seen beyond them.
+ *
+ * @return what is seen of each side, by Side.
  */
-Extent settleExtent(Lattice& lattice, CornerLooker& looker);
+std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker);
 
 }  // namespace outdoor_omr
 

@@ -24,6 +24,11 @@ constexpr int MAX_SIDE = 20;
 constexpr float MIN_FILL = 0.35F;
 // Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
 constexpr float MAX_DOUBT = 2.3F;
+// Gratings and grids of vents alternate as well, but they have no border and blurred corners.
+constexpr float BORDERLESS_CORRELATION = 0.98F;
+constexpr float MAX_GROWING_DOUBT = 2.6F;
+constexpr float MAX_GROWN_DOUBT = 2;     // from 36 corners on
+constexpr int MIN_CORNERS = 6;          // within reach of one another, or it is no lattice
 constexpr float SMALL_SQUARE = 5;  // px; below it nearly all corners must be found
 constexpr float SMALL_SQUARE_FILL = 0.85F;
 constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
@@ -32,7 +37,7 @@ constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
 struct Candidate
 {
   Lattice lattice;
-  Extent extent;
+  std::array<SideEvidence, 4> sides;
   std::vector<cv::Point2f> outline;
 };
 
@@ -55,15 +60,6 @@ void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
 /** Grows a lattice from the seed, giving up as early as clutter shows. @return false if it is none. */
 bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
 {
-  struct Stage
-  {
-    int count;              // corners to grow to
-    int least;              // corners without which it is none
-    float min_correlation;  // median of the corners
-    float max_unevenness;
-  };
-  // Lattices on clutter end here: they cost 20 looks instead of 500.
-  constexpr Stage STAGES[] = {{9, 6, 0.92F, 0.25F}, {18, 6, 0.90F, 0.3F}};
   CornerQuery query;
   query.tolerance = 0.3F;
   const CornerLook corner = looker.look(seed, query);
@@ -73,41 +69,41 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
     return false;
   }
   lattice.start(seed, corner);
-  for (const Stage& stage : STAGES)
+  // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
+  for (int count = 9; count < UNLIMITED; count *= 2)
   {
-    growLattice(lattice, looker, stage.count);
-    const Evidence evidence = latticeEvidence(lattice);
-    if (lattice.count() < stage.least)
+    growLattice(lattice, looker, count);
+    if (lattice.count() < MIN_CORNERS)
     {
       map.addFailure(seed.node, squareHeight(seed));
       return false;
     }
-    if (evidence.correlation < stage.min_correlation || evidence.unevenness > stage.max_unevenness)
+    Evidence evidence = latticeEvidence(lattice);
+    evidence.fill = 1;  // holes are not judged before the gaps are jumped
+    if (evidence.doubt() > (count < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
     {
       noteFailure(lattice, 1, map);
       return false;
     }
-  }
-  growLattice(lattice, looker, UNLIMITED);
-  Evidence evidence = latticeEvidence(lattice);
-  evidence.fill = 1;  // holes are not judged before the gaps are jumped
-  if (evidence.doubt() > 2.6F)
-  {
-    noteFailure(lattice, 2, map);
-    return false;
+    if (lattice.count() < count)
+    {
+      break;
+    }
   }
   return true;
 }
 
-bool isBoard(const Lattice& lattice)
+bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
 {
   const int shorter = std::min(lattice.box.width, lattice.box.height);
   const int longer = std::max(lattice.box.width, lattice.box.height);
   const Evidence evidence = latticeEvidence(lattice);
   const float height = squareHeight(lattice.seedFrame());
+  const bool has_border = std::count(sides.begin(), sides.end(), SideEvidence::border) > 0;
+  const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
-         evidence.doubt() <= MAX_DOUBT && height >= MIN_SQUARE &&
-         (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
+         evidence.doubt() <= MAX_DOUBT && (has_border || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
+         height >= MIN_SQUARE && (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
 /** Number of the lattice's corners that lie on the board of the outline. */
@@ -159,13 +155,13 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     jumpGaps(lattice, looker);
     fillHoles(lattice, looker);
     dropOutliers(lattice);
-    const Extent extent = settleExtent(lattice, looker);
-    if (!isBoard(lattice))
+    const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
+    if (!isBoard(lattice, sides))
     {
       noteFailure(lattice, 2, map);
       continue;
     }
-    Candidate candidate{lattice, extent, boardOutline(lattice)};
+    Candidate candidate{lattice, sides, boardOutline(lattice)};
     map.close(candidate.outline);
     addCandidate(std::move(candidate), candidates);
   }
@@ -178,12 +174,12 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
   const Regularity regularity = checkRegularity(squareCorners(candidate.lattice), regions);
   board.regularity = regularity.share;
   board.squares_seen = regularity.seen;
-  const std::array<bool, 4>& border = candidate.extent.border_seen;
   const cv::Rect2f picture(0, 0, static_cast<float>(frame.raw_grey.cols - 1),
                            static_cast<float>(frame.raw_grey.rows - 1));
-  board.size_certain = std::all_of(border.begin(), border.end(), [](bool known) { return known; }) &&
-                       std::all_of(board.corners.begin(), board.corners.end(),
-                                   [&](const auto& corner) { return picture.contains(corner); });
+  const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
+                                  [&](const auto& corner) { return picture.contains(corner); });
+  const auto& sides = candidate.sides;
+  board.size_certain = inside && std::count(sides.begin(), sides.end(), SideEvidence::border) == 4;
   return board;
 }
 }  // namespace

@@ -267,6 +267,17 @@ int fitRadius(float square_height)
   return std::max(1, std::min(6, static_cast<int>(std::lround(0.32F * square_height))));
 }
 
+/** Quick look before the ring: one sample a quadrant must alternate, whatever the sign. */
+bool mayAlternate(const PyramidView& view, const LocalFrame& frame)
+{
+  constexpr float RADIUS = 0.3F;
+  const float first = view.sample(frame.at(RADIUS, RADIUS));
+  const float second = view.sample(frame.at(-RADIUS, RADIUS));
+  const float third = view.sample(frame.at(-RADIUS, -RADIUS));
+  const float fourth = view.sample(frame.at(RADIUS, -RADIUS));
+  return std::min(first, third) > std::max(second, fourth) || std::min(second, fourth) > std::max(first, third);
+}
+
 /** Where the ring alternates best around the prediction; for a prediction too far off for the saddle fit. */
 bool searchRing(const PyramidView& view, const LocalFrame& predicted, const CornerQuery& query, cv::Point2f& best)
 {
@@ -279,6 +290,10 @@ bool searchRing(const PyramidView& view, const LocalFrame& predicted, const Corn
       LocalFrame moved = predicted;
       moved.node =
           predicted.at(static_cast<float>(j) * 0.5F * query.tolerance, static_cast<float>(i) * 0.5F * query.tolerance);
+      if (!mayAlternate(view, moved))
+      {
+        continue;
+      }
       const Verdict verdict = judgeRing(view, moved);
       if (verdict.gap > best_gap && (query.sign == 0 || verdict.sign == query.sign))
       {
@@ -363,33 +378,47 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   return result;
 }
 
-bool CornerLooker::isOuterCorner(const LocalFrame& predicted, int dark_u, int dark_v, float contrast)
+RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const
 {
   // Half as far out as the ring of an inner corner: a board's margin may be as narrow as half a square.
   constexpr float INNER = 0.25F;
   constexpr float OUTER = 0.4F;
-  constexpr float MIN_CORRELATION = 0.8F;
-  constexpr float MIN_SHARE = 0.4F;  // of the contrast
+  constexpr float MIN_CORRELATION = 0.9F;
+  constexpr float MIN_SHARE = 0.4F;   // of the contrast
+  constexpr float MAX_SPREAD = 0.4F;  // of the light squares, in contrasts
   const float height = squareHeight(predicted);
   if (height < MIN_SQUARE_HEIGHT || !isInside(frame_.raw_grey, predicted.node, 2))
   {
-    return false;
+    return RimLook::unclear;
   }
   const PyramidView view(frame_, height);
   const Ring ring = sampleRing(view, predicted, INNER, OUTER);
-  std::array<float, QUADRANTS> pattern;
-  float dark = 0;
-  float light = 255;
+  std::array<float, QUADRANTS> median;
+  int dark = 0;
   for (int q = 0; q < QUADRANTS; ++q)
   {
-    const bool is_dark =
-        QUADRANT_U[q] * static_cast<float>(dark_u) > 0 && QUADRANT_V[q] * static_cast<float>(dark_v) > 0;
-    const float median = quadrantMedian(ring, q);
-    pattern[q] = is_dark ? -1.F : 1.F;
-    dark = is_dark ? median : dark;
-    light = is_dark ? light : std::min(light, median);
+    median[q] = quadrantMedian(ring, q);
+    dark = QUADRANT_U[q] * static_cast<float>(dark_u) > 0 && QUADRANT_V[q] * static_cast<float>(dark_v) > 0 ? q : dark;
   }
-  return light - dark > std::max(MIN_GAP, MIN_SHARE * contrast) && bestCorrelation(ring, pattern) > MIN_CORRELATION;
+  const float beside_a = median[(dark + 1) % QUADRANTS];
+  const float opposite = median[(dark + 2) % QUADRANTS];
+  const float beside_b = median[(dark + 3) % QUADRANTS];
+  const float least_gap = std::max(MIN_GAP, MIN_SHARE * contrast);
+  std::array<float, QUADRANTS> pattern = {1, 1, 1, 1};
+  pattern[dark] = -1;
+  const float light = std::min({beside_a, beside_b, opposite});
+  if (light - median[dark] > least_gap && bestCorrelation(ring, pattern) > MIN_CORRELATION &&
+      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]))
+  {
+    return RimLook::outer_corner;
+  }
+  pattern[(dark + 2) % QUADRANTS] = -1;
+  if (std::min(beside_a, beside_b) - std::max(median[dark], opposite) > least_gap &&
+      bestCorrelation(ring, pattern) > MIN_CORRELATION)
+  {
+    return RimLook::inner_corner;
+  }
+  return RimLook::unclear;
 }
 
 }  // namespace outdoor_omr

@@ -66,6 +66,15 @@ cv::Point2f refineCorner(const cv::Mat& grey, const LocalFrame& corner)
     float yy = 0;
     float bx = 0;
     float by = 0;
+    std::array<float, WINDOW> weight_x;
+    std::array<float, WINDOW> weight_y;
+    for (int i = -radius; i <= radius; ++i)
+    {
+      const float dx = (static_cast<float>(i) - point.x) / extent;
+      const float dy = (static_cast<float>(i) - point.y) / extent;
+      weight_x[i + MAX_RADIUS] = std::exp(-dx * dx);
+      weight_y[i + MAX_RADIUS] = std::exp(-dy * dy);
+    }
     for (int y = -radius; y <= radius; ++y)
     {
       for (int x = -radius; x <= radius; ++x)
@@ -73,7 +82,7 @@ cv::Point2f refineCorner(const cv::Mat& grey, const LocalFrame& corner)
         const float dx = static_cast<float>(x) - point.x;
         const float dy = static_cast<float>(y) - point.y;
         const cv::Vec2s& gradient = window.at(x, y);
-        const float weight = std::exp(-(dx * dx + dy * dy) / (extent * extent));
+        const float weight = weight_x[x + MAX_RADIUS] * weight_y[y + MAX_RADIUS];
         const float gx = gradient[0];
         const float gy = gradient[1];
         xx += weight * gx * gx;

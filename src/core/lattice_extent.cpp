@@ -196,6 +196,35 @@ void trim(Lattice& lattice, CornerLooker& looker)
   }
 }
 
+int countOnLine(const Lattice& lattice, Side side, int line)
+{
+  const int start = lineStart(lattice, side);
+  int found = 0;
+  for (int t = start; t < start + lineLength(lattice, side); ++t)
+  {
+    const Node node = nodeOnLine(side, line, t);
+    found += lattice.found(node.row, node.col) ? 1 : 0;
+  }
+  return found;
+}
+
+SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& border)
+{
+  constexpr int MIN_BORDER = 2;  // outer corners, the two of one rim square; something else gave one at most
+  constexpr float MIN_LINE_SHARE = 0.5F;
+  if (border.ends())
+  {
+    return SideEvidence::border;
+  }
+  if (border.outside > border.places)
+  {
+    return SideEvidence::cut;
+  }
+  const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
+  const bool line_seen = found >= MIN_LINE_SHARE * static_cast<float>(lineLength(lattice, side));
+  return border.goes_on <= border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim : SideEvidence::none;
+}
+
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
 bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast, int row,
                    int col, CornerLook& corner)
@@ -258,8 +287,8 @@ bool isWithinReach(const Lattice& lattice, int row, int col)
 
 bool BorderLine::ends() const
 {
-  constexpr float MIN_SHARE = 0.3F;
-  return seen >= 2 && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
+  constexpr float MIN_SHARE = 0.5F;
+  return seen >= 2 && seen > goes_on && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
 }
 
 BorderLine lookAtBorder(const Lattice& lattice, CornerLooker& looker, Side side, int distance)
@@ -289,7 +318,9 @@ BorderLine lookAtBorder(const Lattice& lattice, CornerLooker& looker, Side side,
     ++result.places;
     const int dark_u = isRow(side) ? across : in;
     const int dark_v = isRow(side) ? in : across;
-    result.seen += looker.isOuterCorner(predicted, dark_u, dark_v, contrast) ? 1 : 0;
+    const RimLook look = looker.lookAtRim(predicted, dark_u, dark_v, contrast);
+    result.seen += look == RimLook::outer_corner ? 1 : 0;
+    result.goes_on += look == RimLook::inner_corner ? 1 : 0;
   }
   return result;
 }
@@ -400,27 +431,30 @@ void dropOutliers(Lattice& lattice)
   }
 }
 
-Extent settleExtent(Lattice& lattice, CornerLooker& looker)
+std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker)
 {
   constexpr int MAX_HIDDEN_LINES = 2;
   trim(lattice, looker);
-  Extent extent;
+  std::array<BorderLine, 4> borders;
   for (const Side side : SIDES)
   {
-    BorderLine border = lookAtBorder(lattice, looker, side, 1);
-    for (int hidden = 1; hidden <= MAX_HIDDEN_LINES && !border.ends(); ++hidden)
+    borders[side] = lookAtBorder(lattice, looker, side, 1);
+    for (int hidden = 1; hidden <= MAX_HIDDEN_LINES && !borders[side].ends(); ++hidden)
     {
       const BorderLine beyond = lookAtBorder(lattice, looker, side, 1 + hidden);
       if (beyond.ends())
       {
         addLines(lattice, side, hidden);
-        border = beyond;
+        borders[side] = beyond;
       }
     }
-    extent.border_seen[side] = border.ends();
-    extent.cut[side] = !border.ends() && border.outside > border.places;
   }
-  return extent;
+  std::array<SideEvidence, 4> evidence;
+  for (const Side side : SIDES)
+  {
+    evidence[side] = sideEvidence(lattice, side, borders[side]);
+  }
+  return evidence;
 }
 
 }  // namespace outdoor_omr

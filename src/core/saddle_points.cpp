@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace outdoor_omr
@@ -11,21 +12,56 @@ namespace
 {
 constexpr int MARGIN = 4;          // px at the border of the image without saddle points
 constexpr int MIN_SIDE = 16;       // px of an image that can hold a lattice
-constexpr int MIN_RESPONSE = 128;  // 16 (grey levels / px^2)^2; half of it finds no more boards (96 degraded)
+constexpr int LANES = 8;
+constexpr int MIN_RESPONSE = 32;  // 4 (grey levels / px^2)^2; with three times as much 3 of 96 degraded boards are lost
 constexpr int MIN_RANGE = 14;      // grey levels around a saddle point
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
-/** 16 times (Ixy^2 - Ixx Iyy) of one row, saturated; positive at saddle points. */
+/** 4 (Ixy^2 - Ixx Iyy) of one row, saturated; positive at saddle points. Eight pixels at a time: the whole image passes
+ * through here. */
 void saddleResponse(const uchar* above, const uchar* here, const uchar* below, int width, std::int16_t* response)
 {
-  for (int x = 1; x < width - 1; ++x)
+  const auto load = [](const uchar* pixels) { return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels)); };
+  const auto respond = [&](int x) {
+    const cv::v_int16x8 twice = load(here + x) << 1;
+    const cv::v_int16x8 xx = load(here + x - 1) + load(here + x + 1) - twice;
+    const cv::v_int16x8 yy = load(above + x) + load(below + x) - twice;
+    const cv::v_int16x8 xy = load(above + x - 1) + load(below + x + 1) - load(above + x + 1) - load(below + x - 1);
+    cv::v_int32x4 xy2_low;
+    cv::v_int32x4 xy2_high;
+    cv::v_int32x4 product_low;
+    cv::v_int32x4 product_high;
+    cv::v_mul_expand(xy, xy, xy2_low, xy2_high);
+    cv::v_mul_expand(xx, yy, product_low, product_high);
+    cv::v_store(response + x, cv::v_pack((xy2_low >> 2) - (product_low << 2), (xy2_high >> 2) - (product_high << 2)));
+  };
+  int x = 1;
+  for (; x + LANES <= width - 1; x += LANES)
   {
-    const auto xx = static_cast<std::int16_t>(here[x - 1] - 2 * here[x] + here[x + 1]);
-    const auto yy = static_cast<std::int16_t>(above[x] - 2 * here[x] + below[x]);
-    const auto xy = static_cast<std::int16_t>(above[x - 1] + below[x + 1] - above[x + 1] - below[x - 1]);
-    const int value = (xy * xy - 16 * (xx * yy)) / 4;
-    response[x] = static_cast<std::int16_t>(std::min(std::max(value, -32768), 32767));
+    respond(x);
+  }
+  respond(width - 1 - LANES);
+}
+
+/** Calls the action for every x with a response above the threshold. */
+template <typename Action>
+void forEachStrong(const std::int16_t* response, int width, const Action& action)
+{
+  const cv::v_int16x8 threshold = cv::v_setall_s16(MIN_RESPONSE);
+  for (int x = MARGIN; x < width - MARGIN; x += LANES)
+  {
+    const int end = std::min(x + LANES, width - MARGIN);
+    if (end < x + LANES || cv::v_check_any(cv::v_load(response + x) > threshold))
+    {
+      for (int i = x; i < end; ++i)
+      {
+        if (response[i] > MIN_RESPONSE)
+        {
+          action(i);
+        }
+      }
+    }
   }
 }
 
@@ -212,14 +248,12 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey)
     {
       continue;
     }
-    for (int x = MARGIN; x < width - MARGIN; ++x)
-    {
-      if (rows[1][x] > MIN_RESPONSE / 4 && isMaximum({rows[0], rows[1], rows[2]}, x) &&
-          isPointSymmetric(smooth, x, y - 1))
+    forEachStrong(rows[1], width, [&](int x) {
+      if (isMaximum({rows[0], rows[1], rows[2]}, x) && isPointSymmetric(smooth, x, y - 1))
       {
         points.emplace_back(x, y - 1);
       }
-    }
+    });
   }
   return points;
 }
