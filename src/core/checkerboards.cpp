@@ -80,7 +80,7 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
-    if (evidence.doubt() > (count < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
     {
       noteFailure(lattice, 1, map);
       return false;

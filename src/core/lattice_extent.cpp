@@ -140,7 +140,8 @@ LineSupport lineSupport(const Lattice& lattice, CornerLooker& looker, Side side)
   support.share = static_cast<float>(found) / static_cast<float>(end - start);
   support.enough = anchored >= 1 || (found >= 2 && support.share >= MIN_SHARE && convincing >= 1);
   // A line where the board ends, rather than goes on, has more outer corners than inner ones.
-  support.enough = support.enough && lookAtBorder(lattice, looker, side, 0).seen <= found;
+  const BorderLine border = lookAtBorder(lattice, looker, side, 0);
+  support.enough = support.enough && border.seen <= found + border.goes_on;
   return support;
 }
 
@@ -222,7 +223,7 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   }
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
   const bool line_seen = found >= MIN_LINE_SHARE * static_cast<float>(lineLength(lattice, side));
-  return border.goes_on <= border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim : SideEvidence::none;
+  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim : SideEvidence::none;
 }
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
