@@ -10,19 +10,20 @@ namespace outdoor_omr
 /**
  * One checkerboard. Positions in pixels, pixel (0, 0) has its centre at (0, 0).
  *
- * Order: rows run along the shorter side (rows <= cols), clockwise in the image, never mirrored: the first row runs
- * from the first corner, and the rows follow to the right of it as seen along the row (y down). The first inner corner
- * lies beside a black corner square; among those still equal it is the one nearest to the image's top left. A board
- * whose black corner squares are equal under a half turn (rows + cols even, or both odd...) is ambiguous by 180
- * degrees.
+ * Order: rows <= cols. Rows follow each other clockwise of the direction along the row (row to the right: next row
+ * below), so a board is never mirrored. The first inner corner lies beside a black corner square if the board has one;
+ * of the orders that are still possible it is the one whose first inner corner is nearest to the image's top left.
+ *
+ * With rows + cols odd that settles the order. With rows + cols even a half turn gives the same picture, so the order
+ * is ambiguous by 180 degrees, and by 90 degrees where rows = cols is odd: it can change when the board turns.
  */
 struct Checkerboard
 {
   int rows = 0;  ///< squares along the shorter side
   int cols = 0;  ///< squares along the longer side
 
-  /** Outer corners of the board: beside the first, the last inner corner of the first row, the last, the first of the
-   * last row. Extrapolated from the inner corners. */
+  /** Outer corners of the board: beside the first and the last inner corner of the first row, the last and the first of
+   * the last row. Extrapolated from the inner corners. */
   std::array<cv::Point2f, 4> corners;
 
   std::vector<cv::Point2f> inner_corners;  ///< (rows - 1) * (cols - 1), row by row
@@ -32,7 +33,10 @@ struct Checkerboard
   std::vector<bool> squares_seen;    ///< a region of the fill pipeline lies where the square was forecast
   double regularity = 0;             ///< share of the forecast squares that are there [0, 1]
 
-  /** False where a rim of the board may be hidden or cut by the picture's edge: rows and cols are then the least. */
+  /**
+   * True: on all four sides the end of the board, dark rim squares against a light margin, was seen. False: a side is
+   * hidden, or the board touches or leaves the picture; the board may then have more rows or columns than were found.
+   */
   bool size_certain = true;
 };
 

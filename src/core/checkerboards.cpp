@@ -1,11 +1,207 @@
 #include "outdoor_omr/checkerboards.h"
 
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/checkerboard_order.h"
+#include "outdoor_omr/corner_look.h"
+#include "outdoor_omr/corners.h"
+#include "outdoor_omr/groups.h"
+#include "outdoor_omr/lattice.h"
+#include "outdoor_omr/lattice_extent.h"
+#include "outdoor_omr/regularity.h"
+#include "outdoor_omr/saddle_points.h"
+#include "outdoor_omr/search_map.h"
+
 namespace outdoor_omr
 {
-std::vector<Checkerboard> findCheckerboards(const Frame& /*frame*/, const RegionMap& /*regions*/,
-                                            const Settings& /*settings*/)
+namespace
 {
-  return {};
+// Paper, section 3.4: 5x7 to 21x21 squares; inner corners are one less.
+constexpr int MIN_SHORT_SIDE = 4;
+constexpr int MIN_LONG_SIDE = 6;
+constexpr int MAX_SIDE = 20;
+constexpr float MIN_FILL = 0.35F;
+// Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
+constexpr float MAX_DOUBT = 2.3F;
+// Gratings and grids of vents alternate as well, but they have no border and blurred corners.
+constexpr float BORDERLESS_CORRELATION = 0.98F;
+constexpr float MAX_GROWING_DOUBT = 2.6F;
+constexpr float MAX_GROWN_DOUBT = 2;     // from 36 corners on
+constexpr int MIN_CORNERS = 6;          // within reach of one another, or it is no lattice
+constexpr float SMALL_SQUARE = 5;  // px; below it nearly all corners must be found
+constexpr float SMALL_SQUARE_FILL = 0.85F;
+constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
+constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
+
+struct Candidate
+{
+  Lattice lattice;
+  std::array<SideEvidence, 4> sides;
+  std::vector<cv::Point2f> outline;
+};
+
+void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
+{
+  const float height = squareHeight(lattice.seedFrame());
+  map.addFailure(lattice.seedFrame().node, height, failures);
+  for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
+  {
+    for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
+    {
+      if (lattice.found(i, j))
+      {
+        map.addFailure(lattice.at(i, j).position, height, failures);
+      }
+    }
+  }
+}
+
+/** Grows a lattice from the seed, giving up as early as clutter shows. @return false if it is none. */
+bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
+{
+  CornerQuery query;
+  query.tolerance = 0.3F;
+  const CornerLook corner = looker.look(seed, query);
+  if (!corner.found)
+  {
+    map.addFailure(seed.node, squareHeight(seed));
+    return false;
+  }
+  lattice.start(seed, corner);
+  // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
+  for (int count = 9; count < UNLIMITED; count *= 2)
+  {
+    growLattice(lattice, looker, count);
+    if (lattice.count() < MIN_CORNERS)
+    {
+      map.addFailure(seed.node, squareHeight(seed));
+      return false;
+    }
+    Evidence evidence = latticeEvidence(lattice);
+    evidence.fill = 1;  // holes are not judged before the gaps are jumped
+    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+    {
+      noteFailure(lattice, 1, map);
+      return false;
+    }
+    if (lattice.count() < count)
+    {
+      break;
+    }
+  }
+  return true;
+}
+
+bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
+{
+  const int shorter = std::min(lattice.box.width, lattice.box.height);
+  const int longer = std::max(lattice.box.width, lattice.box.height);
+  const Evidence evidence = latticeEvidence(lattice);
+  const float height = squareHeight(lattice.seedFrame());
+  const bool has_border = std::count(sides.begin(), sides.end(), SideEvidence::border) > 0;
+  const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
+  return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
+         evidence.doubt() <= MAX_DOUBT && (has_border || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
+         height >= MIN_SQUARE && (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
+}
+
+/** Number of the lattice's corners that lie on the board of the outline. */
+int countOn(const Lattice& lattice, const std::vector<cv::Point2f>& outline)
+{
+  int count = 0;
+  for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
+  {
+    for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
+    {
+      count += lattice.found(i, j) && cv::pointPolygonTest(outline, lattice.at(i, j).position, false) > 0 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/** Adds a board; of boards in one place the one with most corners stays. */
+void addCandidate(Candidate&& candidate, std::vector<Candidate>& candidates)
+{
+  constexpr int MAX_SHARED = 2;  // corners
+  const auto shares_place = [&](const Candidate& other) {
+    return countOn(candidate.lattice, other.outline) > MAX_SHARED ||
+           countOn(other.lattice, candidate.outline) > MAX_SHARED;
+  };
+  const bool beaten = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+    return other.lattice.count() >= candidate.lattice.count() && shares_place(other);
+  });
+  if (!beaten)
+  {
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), shares_place), candidates.end());
+    candidates.push_back(std::move(candidate));
+  }
+}
+
+void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap& map,
+                std::vector<Candidate>& candidates)
+{
+  Lattice lattice;
+  for (const Seed& seed : seeds)
+  {
+    if (looker.looksLeft() == 0)
+    {
+      return;
+    }
+    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed.frame, looker, lattice, map))
+    {
+      continue;
+    }
+    jumpGaps(lattice, looker);
+    fillHoles(lattice, looker);
+    dropOutliers(lattice);
+    const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
+    if (!isBoard(lattice, sides))
+    {
+      noteFailure(lattice, 2, map);
+      continue;
+    }
+    Candidate candidate{lattice, sides, boardOutline(lattice)};
+    map.close(candidate.outline);
+    addCandidate(std::move(candidate), candidates);
+  }
+}
+
+Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& regions)
+{
+  const std::vector<bool> seen = refineCorners(frame, candidate.lattice);
+  Checkerboard board = orderCheckerboard(candidate.lattice, seen);
+  const Regularity regularity = checkRegularity(squareCorners(candidate.lattice), regions);
+  board.regularity = regularity.share;
+  board.squares_seen = regularity.seen;
+  const cv::Rect2f picture(0, 0, static_cast<float>(frame.raw_grey.cols - 1),
+                           static_cast<float>(frame.raw_grey.rows - 1));
+  const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
+                                  [&](const auto& corner) { return picture.contains(corner); });
+  const auto& sides = candidate.sides;
+  board.size_certain = inside && std::count(sides.begin(), sides.end(), SideEvidence::border) == 4;
+  return board;
+}
+}  // namespace
+
+std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
+{
+  constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
+  CornerLooker looker(frame, settings.checkerboard_looks);
+  SearchMap map(frame.raw_grey.size());
+  std::vector<Candidate> candidates;
+  findBoards(pairNeighbours(frame, regions), looker, map, candidates);
+  const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
+  for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
+  {
+    findBoards(groupSaddlePoints(frame, level, map), looker, map, candidates);
+  }
+  std::vector<Checkerboard> boards;
+  for (Candidate& candidate : candidates)
+  {
+    boards.push_back(finish(candidate, frame, regions));
+  }
+  return boards;
 }
 
 }  // namespace outdoor_omr

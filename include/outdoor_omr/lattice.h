@@ -1,0 +1,124 @@
+#ifndef OUTDOOR_OMR_LATTICE_H
+#define OUTDOOR_OMR_LATTICE_H
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "outdoor_omr/corner_look.h"
+#include "outdoor_omr/local_frame.h"
+
+namespace outdoor_omr
+{
+/** A node of the lattice: a place for an inner corner. */
+struct LatticeNode
+{
+  bool found = false;
+  cv::Point2f position;   ///< [px]
+  float contrast = 0;     ///< see CornerLook
+  float correlation = 0;  ///< see CornerLook
+  std::uint8_t looks = 0;
+};
+
+/**
+ * Inner corners of one board by row and column, as they are found. The seed lies in the middle of a fixed grid that
+ * holds the largest board (20 x 20 inner corners) wherever in it the seed was.
+ */
+class Lattice
+{
+ public:
+  static constexpr int SIZE = 52;   ///< rows and columns of the grid
+  static constexpr int BORDER = 4;  ///< no node is found nearer to the grid's rim, so that neighbours always exist
+  static constexpr int SEED = SIZE / 2;
+
+  Lattice();
+
+  /** Empties the lattice and puts the seed's corner in the middle. */
+  void start(const LocalFrame& seed, const CornerLook& corner);
+
+  LatticeNode& at(int row, int col)
+  {
+    return nodes_[row * SIZE + col];
+  }
+  const LatticeNode& at(int row, int col) const
+  {
+    return nodes_[row * SIZE + col];
+  }
+  bool found(int row, int col) const
+  {
+    return at(row, col).found;
+  }
+  static bool admits(int row, int col)
+  {
+    return row >= BORDER && col >= BORDER && row < SIZE - BORDER && col < SIZE - BORDER;
+  }
+
+  void put(int row, int col, const CornerLook& corner);
+
+  /** Takes a corner back; the box stays. */
+  void remove(int row, int col);
+
+  /** Expected sign of a corner, see CornerLook::sign. */
+  int sign(int row, int col) const
+  {
+    return (row + col) % 2 == 0 ? seed_sign_ : -seed_sign_;
+  }
+
+  int count() const
+  {
+    return count_;
+  }
+  /** Columns x, rows y of the nodes; the extents of the board once they are settled. */
+  cv::Rect box;
+
+  const LocalFrame& seedFrame() const
+  {
+    return seed_;
+  }
+
+  /** Median contrast of the found corners [grey levels]. */
+  float medianContrast() const;
+
+ private:
+  std::vector<LatticeNode> nodes_;
+  LocalFrame seed_;
+  int seed_sign_ = 1;
+  int count_ = 0;
+};
+
+/**
+ * Where a node should be, from the corners found around it: weighted least squares in lattice coordinates, affine,
+ * bilinear or quadratic as their number and spread allow. No camera model: wide-angle lenses and curved plates are
+ * smooth over a few squares as well.
+ *
+ * @param window corners up to this many rows and columns away count, the node's own does not.
+ * @return false if there is none, or the lattice folds over itself there.
+ */
+bool predictNode(const Lattice& lattice, int row, int col, int window, LocalFrame& predicted);
+
+/** Finds corners outwards from those found, best supported first, until none is added or there are max_count. */
+void growLattice(Lattice& lattice, CornerLooker& looker, int max_count);
+
+/** Looks once more at every node of the box that was not found, now with all its neighbours. */
+void fillHoles(Lattice& lattice, CornerLooker& looker);
+
+/** How much speaks for a board, and against clutter that happens to alternate. */
+struct Evidence
+{
+  float fill = 0;         ///< found corners per node of the box
+  float correlation = 0;  ///< median of the corners
+  float unevenness = 0;   ///< median third difference of the positions [squares], see latticeEvidence()
+
+  /** Sum of the three shortfalls, each in units of what boards hardly reach; see MAX_DOUBT. */
+  float doubt() const;
+};
+
+/**
+ * Third differences vanish on what perspective, lens and curved plate do to neighbouring squares, where second
+ * differences do not (a 180 degree fisheye has 0.26 squares); they are scaled to the noise of a second difference.
+ */
+Evidence latticeEvidence(const Lattice& lattice);
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,33 @@
+#ifndef OUTDOOR_OMR_SADDLE_POINTS_H
+#define OUTDOOR_OMR_SADDLE_POINTS_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "outdoor_omr/frame.h"
+#include "outdoor_omr/groups.h"
+#include "outdoor_omr/search_map.h"
+
+namespace outdoor_omr
+{
+/**
+ * Saddle points of the grey values that look the same after a half turn, as the corner of four squares does.
+ *
+ * @param grey CV_8UC1.
+ * @return     pixels, row by row; empty for an image under 16 px.
+ */
+std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey);
+
+/**
+ * Seeds for what regions do not give: squares under 6 px, whose edges fill them, and blurred or faint boards. Three
+ * saddle points, one with two of its neighbours, make a frame when the squares between them alternate.
+ *
+ * @param level    of the pyramid; level 0 is read from the unfiltered image.
+ * @param open     where seeds are wanted.
+ * @return         highest rank first.
+ */
+std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, const SearchMap& open);
+
+}  // namespace outdoor_omr
+
+#endif
