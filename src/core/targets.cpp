@@ -1,10 +1,53 @@
 #include "outdoor_omr/targets.h"
 
+#include "edgels.h"
+#include "ring_candidate.h"
+#include "ring_seeds.h"
+
 namespace outdoor_omr
 {
-std::vector<Target> findTargets(const Frame& /*frame*/, const RegionMap& /*regions*/, const Settings& /*settings*/)
+namespace
 {
-  return {};
+bool contains(const RingCandidate& candidate, const cv::Point2d& point)
+{
+  cv::Point2d gradient;
+  return candidate.rings.family.radius(point, gradient) < candidate.rings.radii.back();
+}
+
+Target toTarget(const RingCandidate& candidate)
+{
+  Target target;
+  target.center = cv::Point2f(candidate.rings.family.center);
+  for (const double radius : candidate.rings.radii)
+  {
+    target.rings.push_back(candidate.rings.family.ellipse(radius));
+  }
+  target.colors = std::string(target.rings.size(), '?');
+  return target;
+}
+}  // namespace
+
+std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const Settings& settings)
+{
+  EdgelMap map(frame.bgr);
+  std::vector<RingCandidate> accepted;
+  for (const RingSeed& seed : findRoundSeeds(regions.regions))
+  {
+    const bool taken = std::any_of(accepted.begin(), accepted.end(), [&](const RingCandidate& candidate) {
+      return contains(candidate, seed.family.center);
+    });
+    RingCandidate candidate;
+    if (!taken && growCandidate(map, frame.bgr, seed, candidate) && isTarget(candidate, settings.target_min_rings))
+    {
+      accepted.push_back(candidate);
+    }
+  }
+  std::vector<Target> targets;
+  for (const RingCandidate& candidate : accepted)
+  {
+    targets.push_back(toTarget(candidate));
+  }
+  return targets;
 }
 
 }  // namespace outdoor_omr

@@ -1,0 +1,235 @@
+#include "ring_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace outdoor_omr
+{
+namespace
+{
+constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
+constexpr double FINE_COSINE = 0.9;
+constexpr double MIN_SUPPORT = 0.42;    // of the directions: 25 to 40 % of a target may be hidden
+constexpr double MIN_DISTANCE = 1.6;    // between two boundaries [px]: closer ones merge in the gradient
+constexpr int MAX_ROUNDS = 8;
+constexpr double MAX_RADIUS = 600;  // [px]
+constexpr double CELL = 0.25;       // of the radial histogram [px]
+
+std::uint64_t binsAt(const cv::Point2d& q, double radius)
+{
+  const double angle = cv::fastAtan2(static_cast<float>(q.y), static_cast<float>(q.x)) * (ANGLE_BINS / 360.);
+  const double half = .6 / std::max(.6, radius) * (ANGLE_BINS / (2 * CV_PI));
+  std::uint64_t bins = 0;
+  for (int bin = static_cast<int>(std::floor(angle - half)); bin <= std::floor(angle + half); ++bin)
+  {
+    bins |= std::uint64_t{1} << ((bin + 2 * ANGLE_BINS) % ANGLE_BINS);
+  }
+  return bins;
+}
+
+double share(std::uint64_t bins)
+{
+  return __builtin_popcountll(bins) / static_cast<double>(ANGLE_BINS);
+}
+
+struct Peak
+{
+  double radius = 0;
+  double support = 0;
+};
+
+/** Radii at which the angular support has a maximum, ascending. */
+std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_radius, double tolerance)
+{
+  const int cells = static_cast<int>(max_radius / CELL) + 1;
+  std::vector<std::uint64_t> bins(static_cast<std::size_t>(cells), 0);
+  for (const RadialEdgel& edgel : edgels)
+  {
+    bins[static_cast<std::size_t>(std::min(cells - 1, static_cast<int>(edgel.radius / CELL)))] |= edgel.bins;
+  }
+  const int reach = static_cast<int>(std::lround(tolerance / CELL));
+  std::vector<double> support(bins.size());
+  std::vector<int> order;
+  for (int i = 0; i < cells; ++i)
+  {
+    std::uint64_t united = 0;
+    for (int j = std::max(0, i - reach); j <= std::min(cells - 1, i + reach); ++j)
+    {
+      united |= bins[j];
+    }
+    support[i] = share(united);
+    if (support[i] >= MIN_SUPPORT)
+    {
+      order.push_back(i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int left, int right) { return support[left] > support[right]; });
+  std::vector<char> taken(bins.size(), 0);
+  std::vector<Peak> peaks;
+  const int distance = static_cast<int>(std::ceil(std::max(MIN_DISTANCE, 1.5 * tolerance) / CELL));
+  for (const int i : order)
+  {
+    if (taken[i])
+    {
+      continue;
+    }
+    int end = i;  // of the plateau of equal support
+    while (end + 1 < cells && !taken[end + 1] && support[end + 1] == support[i])
+    {
+      ++end;
+    }
+    std::fill(taken.begin() + std::max(0, i - distance), taken.begin() + std::min(cells, end + distance + 1), 1);
+    peaks.push_back({(i + end + 1) * .5 * CELL, support[i]});
+  }
+  std::sort(peaks.begin(), peaks.end(), [](const Peak& left, const Peak& right) { return left.radius < right.radius; });
+  return peaks;
+}
+
+/** Distance of each boundary to the nearest other, the centre included. */
+std::vector<double> clearances(const std::vector<double>& radii)
+{
+  std::vector<double> result(radii.size());
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
+    const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
+    result[k] = std::min(inside, outside);
+  }
+  return result;
+}
+
+bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, Rings& rings)
+{
+  const std::vector<double> clearance = clearances(rings.radii);
+  std::vector<BoundaryPoint> points;
+  for (const RadialEdgel& edgel : edgels)
+  {
+    const auto next = std::lower_bound(rings.radii.begin(), rings.radii.end(), edgel.radius);
+    std::size_t k = static_cast<std::size_t>(next - rings.radii.begin());
+    if (k == rings.radii.size() || (k > 0 && edgel.radius - rings.radii[k - 1] < rings.radii[k] - edgel.radius))
+    {
+      --k;
+    }
+    if (std::abs(edgel.radius - rings.radii[k]) < std::min(gate, .45 * clearance[k]))
+    {
+      points.push_back({cv::Point2d(edgel.position), static_cast<int>(k)});
+    }
+  }
+  const double rms = refineFamily(points, perspective, rings.family, rings.radii);
+  if (!std::isfinite(rms))
+  {
+    return false;
+  }
+  rings.rms = rms;
+  return true;
+}
+
+/** How far to look for the next boundary: rings may be four times as wide as their neighbours. */
+double nextReach(const Rings& rings, bool patient)
+{
+  const double outermost = rings.radii.back();
+  return std::min(MAX_RADIUS, (rings.radii.size() == 1 ? (patient ? 5 : 2.4) : (patient ? 2.2 : 1.6)) * outermost + 5);
+}
+}  // namespace
+
+void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
+                         std::vector<RadialEdgel>& edgels)
+{
+  edgels.clear();
+  const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
+  const cv::Point2d& c = family.center;
+  map.visit(c.x - half.x, c.y - half.y, c.x + half.x, c.y + half.y, [&](const Edgel& edgel) {
+    cv::Point2d gradient;
+    const cv::Point2d position(edgel.x, edgel.y);
+    const double radius = family.radius(position, gradient);
+    if (radius > max_radius || radius < .8)
+    {
+      return;
+    }
+    const double projection = gradient.x * edgel.nx + gradient.y * edgel.ny;
+    if (projection * projection >= min_cosine * min_cosine * gradient.dot(gradient))
+    {
+      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius),
+                        binsAt(family.toPlane(position), radius)});
+    }
+  });
+}
+
+double angularSupport(const std::vector<RadialEdgel>& edgels, double radius, double tolerance)
+{
+  std::uint64_t bins = 0;
+  for (const RadialEdgel& edgel : edgels)
+  {
+    bins |= std::abs(edgel.radius - radius) <= tolerance ? edgel.bins : 0;
+  }
+  return share(bins);
+}
+
+bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
+{
+  std::vector<RadialEdgel> edgels;
+  collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, FINE_COSINE, edgels);
+  return refineWith(edgels, gate, perspective, rings);
+}
+
+bool growRings(EdgelMap& map, double reach, Rings& rings)
+{
+  std::vector<RadialEdgel> edgels;
+  if (!rings.radii.empty())
+  {
+    collectRadialEdgels(map, rings.family, rings.radii.back() * 1.2 + 3, COARSE_COSINE, edgels);
+    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, rings))
+    {
+      return false;
+    }
+  }
+  bool patient = false;
+  std::size_t settled = 0;  // rounds without a new boundary
+  for (int round = 0; round < MAX_ROUNDS; ++round)
+  {
+    const bool rough = rings.radii.size() < 2;
+    collectRadialEdgels(map, rings.family, reach, rough ? COARSE_COSINE : FINE_COSINE, edgels);
+    const double tolerance = rough ? std::max(.9, .015 * reach) : std::max(.8, .008 * reach);
+    const std::vector<Peak> peaks = findPeaks(edgels, reach, tolerance);
+    if (peaks.empty())
+    {
+      return false;
+    }
+    Rings next = rings;
+    next.radii.clear();
+    for (const Peak& peak : peaks)
+    {
+      next.radii.push_back(peak.radius);
+    }
+    if (next.radii.size() > MAX_BOUNDARIES)
+    {
+      next.radii.resize(MAX_BOUNDARIES);
+    }
+    const double gate = rough ? std::max(1.5, .04 * next.radii.back()) : std::max(1., .015 * next.radii.back());
+    if (!refineWith(edgels, gate, true, next))
+    {
+      return false;
+    }
+    const bool grown = rings.radii.empty() || next.radii.size() > rings.radii.size() ||
+                       next.radii.back() > 1.05 * rings.radii.back();
+    rings = next;
+    settled = grown ? 0 : settled + 1;
+    if (settled > 0)
+    {
+      if (patient && settled > 1)
+      {
+        break;
+      }
+      patient = true;
+    }
+    else
+    {
+      patient = false;
+    }
+    reach = std::max(nextReach(rings, patient), rings.radii.size() == 1 ? reach : 0.);
+  }
+  return rings.radii.size() >= 2;
+}
+
+}  // namespace outdoor_omr
