@@ -11,7 +11,9 @@ namespace
 constexpr int ANGLES = RingProfile::ANGLES;
 constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
 constexpr double MIN_WIDTH = 1.8;       // of a ring [px]
-constexpr double MIN_SLOPE = .02;       // of the logarithm over two pixels
+constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
+constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
+constexpr double VALLEY = .6;           // of the slope between two boundaries, relative to the weaker one
 constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
 constexpr double MIN_AGREEMENT = .5;
 
@@ -23,7 +25,15 @@ float median(Values& values, int count)
   return values[count / 2];
 }
 
-/** Median slope of each radius, as a length over the three channels. */
+float brightest(const cv::Vec3f& grey)
+{
+  return std::max({grey[0], grey[1], grey[2]});
+}
+
+/**
+ * Median slope of each radius relative to the brightness there, as a length over the three channels. Of grey levels:
+ * logarithms would move a rising and a falling channel of one edge apart.
+ */
 std::vector<double> medianSlopes(const RingProfile& profile)
 {
   const int reach = std::max(1, static_cast<int>(std::lround(1 / profile.step)));
@@ -36,7 +46,9 @@ std::vector<double> medianSlopes(const RingProfile& profile)
     {
       if (i + reach < profile.inside[angle])
       {
-        const LogColor slope = profile.ray(angle)[i + reach] - profile.ray(angle)[i - reach];
+        const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
+        const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
+        const cv::Vec3f slope = (outer - inner) * (1 / (brightest(inner) + brightest(outer) + DARK_LEVEL));
         for (int c = 0; c < 3; ++c)
         {
           values[c][count] = slope[c];
@@ -65,6 +77,20 @@ std::vector<double> candidates(const RingProfile& profile)
     const auto last = slopes.begin() + std::min(profile.count, i + reach + 1);
     if (slopes[i] > MIN_SLOPE && std::max_element(first, last) == slopes.begin() + i)
     {
+      if (!radii.empty())
+      {
+        // One edge may give two maxima; between two edges the slope falls.
+        const int before = static_cast<int>(std::lround(radii.back() / profile.step));
+        const double valley = *std::min_element(slopes.begin() + before, slopes.begin() + i);
+        if (valley > VALLEY * std::min(slopes[i], slopes[before]))
+        {
+          if (slopes[i] <= slopes[before])
+          {
+            continue;
+          }
+          radii.pop_back();
+        }
+      }
       const double curvature = slopes[i - 1] + slopes[i + 1] - 2 * slopes[i];
       const double offset = curvature < 0 ? std::clamp(.5 * (slopes[i - 1] - slopes[i + 1]) / curvature, -.5, .5) : 0;
       radii.push_back((i + offset) * profile.step);
@@ -73,41 +99,21 @@ std::vector<double> candidates(const RingProfile& profile)
   return radii;
 }
 
-/** Mean colours of one ray between two radii. @return false where the ray has left the image. */
-bool plateau(const RingProfile& profile, int angle, double from, double to, LogColor& color)
+/** How far to either side of a boundary its whole step shows [px]. */
+double stepReach(const std::vector<double>& radii, std::size_t k)
 {
-  const int first = static_cast<int>(std::lround(from / profile.step));
-  const int last = std::max(first, static_cast<int>(std::lround(to / profile.step)));
-  if (last >= profile.inside[angle])
-  {
-    return false;
-  }
-  color = LogColor();
-  for (int i = first; i <= last; ++i)
-  {
-    color += profile.ray(angle)[i];
-  }
-  color *= 1.F / (last - first + 1);
-  return true;
-}
-
-/** The part of ring k that its edges do not blur; k = radii.size() is what lies around. */
-std::pair<double, double> plateauOf(const std::vector<double>& radii, std::size_t k, double limit)
-{
-  constexpr double MARGIN = .3;
-  const double inner = k > 0 ? radii[k - 1] : 0;
-  const double last_width = radii.back() - (radii.size() > 1 ? radii[radii.size() - 2] : 0);
-  const double outer = k < radii.size() ? radii[k] : std::min(limit, radii.back() + std::max(3., .7 * last_width));
-  const double margin = std::max(MARGIN * (outer - inner), std::min(1.5, .45 * (outer - inner)));
-  return {inner + margin, outer - margin};
+  const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
+  const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
+  return std::min({.5 * inside, .5 * outside, std::max(2., .02 * radii[k])});
 }
 
 Boundary measure(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
 {
-  const double limit = (profile.count - 1) * profile.step;
-  const auto inside = plateauOf(radii, k, limit);
-  const auto outside = plateauOf(radii, k + 1, limit);
+  const double reach = stepReach(radii, k);
+  const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
+  const int outer = static_cast<int>(std::lround((radii[k] + reach) / profile.step));
   std::array<LogColor, ANGLES> steps;
+  std::array<LogColor, ANGLES> local_steps;
   std::array<Values, 3> values;
   int count = 0;
   LogColor sum;
@@ -116,9 +122,10 @@ Boundary measure(const RingProfile& profile, const std::vector<double>& radii, s
   {
     LogColor before;
     LogColor after;
-    if (plateau(profile, angle, inside.first, inside.second, before) &&
-        plateau(profile, angle, outside.first, outside.second, after))
+    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before) &&
+        ringColor(profile, radii, k + 1, angle, after))
     {
+      local_steps[count] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
       steps[count] = after - before;
       sum += steps[count];
       length_sum += cv::norm(steps[count]);
@@ -143,7 +150,8 @@ Boundary measure(const RingProfile& profile, const std::vector<double>& radii, s
   {
     const double along = steps[i].dot(boundary.change);
     const double squared = boundary.contrast * boundary.contrast;
-    agreeing += along > .4 * squared && along < 2.5 * squared ? 1 : 0;
+    const double here = local_steps[i].dot(boundary.change);
+    agreeing += along > .4 * squared && along < 2.5 * squared && here > .35 * squared ? 1 : 0;
   }
   boundary.agreement = agreeing / static_cast<double>(count);
   return boundary;

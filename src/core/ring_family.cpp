@@ -12,7 +12,8 @@ namespace
 using Normal = cv::Matx<double, 7, 7>;
 using Vector = cv::Vec<double, 7>;
 
-constexpr int MAX_STEPS = 12;
+constexpr int MAX_STEPS = 8;
+constexpr int MAX_TRIALS = 4;
 constexpr double TUKEY = 3.5;                // of the deviation: full rejection
 constexpr double SMALLEST_DEVIATION = 0.08;  // [px]
 // Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives 0.05;
@@ -35,12 +36,12 @@ double residual(const RingFamily& family, const std::vector<double>& radii, cons
   const double det = m00 * m11 - m01 * m10;
   const double qx = (m11 * dp.x - m01 * dp.y) / det;
   const double qy = (m00 * dp.y - m10 * dp.x) / det;
-  const double r = std::max(1e-6, std::hypot(qx, qy));
+  const double r = std::max(1e-6, std::sqrt(qx * qx + qy * qy));
   // g = M^-T q / r; the gradient of r over p is (1 + h.q) g.
   const double gx = (m11 * qx - m10 * qy) / (det * r);
   const double gy = (m00 * qy - m01 * qx) / (det * r);
   const double w = 1 + family.hx * qx + family.hy * qy;
-  const double scale = 1 / std::max(.1, std::abs(w) * std::hypot(gx, gy));
+  const double scale = 1 / std::max(.1, std::abs(w) * std::sqrt(gx * gx + gy * gy));
   if (derivative != nullptr)
   {
     const double along = gx * dp.x + gy * dp.y;
@@ -48,6 +49,13 @@ double residual(const RingFamily& family, const std::vector<double>& radii, cons
     *by_radius = -scale;
   }
   return scale * (r - radii[point.ring]);
+}
+
+double tukeyWeight(double error, double limit)
+{
+  const double t = error / limit;
+  const double inside = std::max(0., 1 - t * t);
+  return inside * inside;
 }
 
 double tukeyLoss(double error, double limit)
@@ -76,22 +84,29 @@ class Fit
   bool run(RingFamily& family, std::vector<double>& radii)
   {
     double damping = 1e-4;
+    evaluate(family, radii, errors_);
     for (int step = 0; step < MAX_STEPS; ++step)
     {
-      estimateDeviation(family, radii);
+      estimateDeviation();
       const Equations equations = build(family, radii);
-      const double before = cost(family, radii);
+      const double before = cost(family, radii, errors_);
       double after = before;
       bool accepted = false;
-      for (int trial = 0; trial < 5 && !accepted; ++trial)
+      for (int trial = 0; trial < MAX_TRIALS && !accepted; ++trial)
       {
         RingFamily next = family;
         std::vector<double> next_radii = radii;
-        if (solve(equations, damping, next, next_radii) && (after = cost(next, next_radii)) <= before)
+        if (solve(equations, damping, next, next_radii))
         {
-          accepted = true;
+          evaluate(next, next_radii, next_errors_);
+          after = cost(next, next_radii, next_errors_);
+          accepted = after <= before;
+        }
+        if (accepted)
+        {
           family = next;
           radii = next_radii;
+          errors_.swap(next_errors_);
         }
         damping = accepted ? std::max(1e-7, damping * .1) : damping * 10;
       }
@@ -100,20 +115,17 @@ class Fit
         break;
       }
     }
-    estimateDeviation(family, radii);
     return plausible(family, radii);
   }
 
   /** RMS distance of the points that count [px]. */
-  double rms(const RingFamily& family, const std::vector<double>& radii) const
+  double rms() const
   {
     double sum = 0;
     double weight_sum = 0;
-    for (const BoundaryPoint& point : points_)
+    for (const double error : errors_)
     {
-      const double error = residual(family, radii, point, nullptr, nullptr);
-      const double t = error / limit_;
-      const double weight = t * t < 1 ? (1 - t * t) * (1 - t * t) : 0;
+      const double weight = tukeyWeight(error, limit_);
       sum += weight * error * error;
       weight_sum += weight;
     }
@@ -121,15 +133,21 @@ class Fit
   }
 
  private:
-  void estimateDeviation(const RingFamily& family, const std::vector<double>& radii)
+  void evaluate(const RingFamily& family, const std::vector<double>& radii, std::vector<double>& errors) const
   {
-    errors_.clear();
-    for (const BoundaryPoint& point : points_)
+    errors.resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i)
     {
-      errors_.push_back(std::abs(residual(family, radii, point, nullptr, nullptr)));
+      errors[i] = residual(family, radii, points_[i], nullptr, nullptr);
     }
-    const auto middle = errors_.begin() + static_cast<std::ptrdiff_t>(errors_.size() / 2);
-    std::nth_element(errors_.begin(), middle, errors_.end());
+  }
+
+  void estimateDeviation()
+  {
+    sizes_.resize(errors_.size());
+    std::transform(errors_.begin(), errors_.end(), sizes_.begin(), [](double error) { return std::abs(error); });
+    const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
+    std::nth_element(sizes_.begin(), middle, sizes_.end());
     limit_ = TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
   }
 
@@ -140,12 +158,12 @@ class Fit
     return limit_ * limit_ / (TUKEY * TUKEY * usual * usual);
   }
 
-  double cost(const RingFamily& family, const std::vector<double>& radii) const
+  double cost(const RingFamily& family, const std::vector<double>& radii, const std::vector<double>& errors) const
   {
     double sum = 0;
-    for (const BoundaryPoint& point : points_)
+    for (const double error : errors)
     {
-      sum += tukeyLoss(residual(family, radii, point, nullptr, nullptr), limit_);
+      sum += tukeyLoss(error, limit_);
     }
     // Tukey's loss is 3 (e / limit)^2 for small errors e.
     return sum + 3 * priorWeight(radii) * (family.hx * family.hx + family.hy * family.hy) / (limit_ * limit_);
@@ -159,12 +177,11 @@ class Fit
       Vector derivative;
       double by_radius = 0;
       const double error = residual(family, radii, point, &derivative, &by_radius);
-      const double t = error / limit_;
-      if (t * t >= 1)
+      const double weight = tukeyWeight(error, limit_);
+      if (weight <= 0)
       {
         continue;
       }
-      const double weight = (1 - t * t) * (1 - t * t);
       for (int i = 0; i < 7; ++i)
       {
         const double wi = weight * derivative[i];
@@ -274,7 +291,7 @@ class Fit
 
   const std::vector<BoundaryPoint>& points_;
   bool perspective_;
-  std::vector<double> errors_;
+  std::vector<double> errors_, next_errors_, sizes_;  // [px]
   double limit_ = 1;  // Tukey's: errors beyond it do not count [px]
 };
 }  // namespace
@@ -376,7 +393,7 @@ double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, 
   }
   family = refined;
   radii = refined_radii;
-  return fit.rms(family, radii);
+  return fit.rms();
 }
 
 }  // namespace outdoor_omr

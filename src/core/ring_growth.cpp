@@ -14,6 +14,8 @@ constexpr double MIN_SUPPORT = 0.42;    // of the directions: 25 to 40 % of a ta
 constexpr double MIN_DISTANCE = 1.6;    // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
 constexpr double MAX_RADIUS = 600;  // [px]
+constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
+constexpr std::size_t FINE_POINTS = 800;
 constexpr double CELL = 0.25;       // of the radial histogram [px]
 
 std::uint64_t binsAt(const cv::Point2d& q, double radius)
@@ -28,10 +30,27 @@ std::uint64_t binsAt(const cv::Point2d& q, double radius)
   return bins;
 }
 
-double share(std::uint64_t bins)
+/** Directions with edgels, apart by the gradient's sign: clutter has both on one circle, a boundary one. */
+struct SignedBins
 {
-  return __builtin_popcountll(bins) / static_cast<double>(ANGLE_BINS);
-}
+  std::uint64_t brighter = 0, darker = 0;
+
+  void add(const RadialEdgel& edgel)
+  {
+    (edgel.brighter_outside ? brighter : darker) |= edgel.bins;
+  }
+
+  void add(const SignedBins& other)
+  {
+    brighter |= other.brighter;
+    darker |= other.darker;
+  }
+
+  double share() const
+  {
+    return std::max(__builtin_popcountll(brighter), __builtin_popcountll(darker)) / static_cast<double>(ANGLE_BINS);
+  }
+};
 
 struct Peak
 {
@@ -43,22 +62,22 @@ struct Peak
 std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_radius, double tolerance)
 {
   const int cells = static_cast<int>(max_radius / CELL) + 1;
-  std::vector<std::uint64_t> bins(static_cast<std::size_t>(cells), 0);
+  std::vector<SignedBins> bins(static_cast<std::size_t>(cells));
   for (const RadialEdgel& edgel : edgels)
   {
-    bins[static_cast<std::size_t>(std::min(cells - 1, static_cast<int>(edgel.radius / CELL)))] |= edgel.bins;
+    bins[static_cast<std::size_t>(std::min(cells - 1, static_cast<int>(edgel.radius / CELL)))].add(edgel);
   }
   const int reach = static_cast<int>(std::lround(tolerance / CELL));
   std::vector<double> support(bins.size());
   std::vector<int> order;
   for (int i = 0; i < cells; ++i)
   {
-    std::uint64_t united = 0;
+    SignedBins united;
     for (int j = std::max(0, i - reach); j <= std::min(cells - 1, i + reach); ++j)
     {
-      united |= bins[j];
+      united.add(bins[j]);
     }
-    support[i] = share(united);
+    support[i] = united.share();
     if (support[i] >= MIN_SUPPORT)
     {
       order.push_back(i);
@@ -99,7 +118,21 @@ std::vector<double> clearances(const std::vector<double>& radii)
   return result;
 }
 
-bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, Rings& rings)
+/** Keeps at most max_points, evenly taken. */
+void thin(std::vector<BoundaryPoint>& points, std::size_t max_points)
+{
+  if (points.size() > max_points)
+  {
+    for (std::size_t i = 0; i < max_points; ++i)
+    {
+      points[i] = points[i * points.size() / max_points];
+    }
+    points.resize(max_points);
+  }
+}
+
+bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, std::size_t max_points,
+                Rings& rings)
 {
   const std::vector<double> clearance = clearances(rings.radii);
   std::vector<BoundaryPoint> points;
@@ -116,6 +149,7 @@ bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspe
       points.push_back({cv::Point2d(edgel.position), static_cast<int>(k)});
     }
   }
+  thin(points, max_points);
   const double rms = refineFamily(points, perspective, rings.family, rings.radii);
   if (!std::isfinite(rms))
   {
@@ -150,7 +184,7 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
     const double projection = gradient.x * edgel.nx + gradient.y * edgel.ny;
     if (projection * projection >= min_cosine * min_cosine * gradient.dot(gradient))
     {
-      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius),
+      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius), projection > 0,
                         binsAt(family.toPlane(position), radius)});
     }
   });
@@ -158,19 +192,22 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
 
 double angularSupport(const std::vector<RadialEdgel>& edgels, double radius, double tolerance)
 {
-  std::uint64_t bins = 0;
+  SignedBins bins;
   for (const RadialEdgel& edgel : edgels)
   {
-    bins |= std::abs(edgel.radius - radius) <= tolerance ? edgel.bins : 0;
+    if (std::abs(edgel.radius - radius) <= tolerance)
+    {
+      bins.add(edgel);
+    }
   }
-  return share(bins);
+  return bins.share();
 }
 
 bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
 {
   std::vector<RadialEdgel> edgels;
   collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, FINE_COSINE, edgels);
-  return refineWith(edgels, gate, perspective, rings);
+  return refineWith(edgels, gate, perspective, FINE_POINTS, rings);
 }
 
 bool growRings(EdgelMap& map, double reach, Rings& rings)
@@ -179,7 +216,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
   if (!rings.radii.empty())
   {
     collectRadialEdgels(map, rings.family, rings.radii.back() * 1.2 + 3, COARSE_COSINE, edgels);
-    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, rings))
+    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, COARSE_POINTS, rings))
     {
       return false;
     }
@@ -192,9 +229,16 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     collectRadialEdgels(map, rings.family, reach, rough ? COARSE_COSINE : FINE_COSINE, edgels);
     const double tolerance = rough ? std::max(.9, .015 * reach) : std::max(.8, .008 * reach);
     const std::vector<Peak> peaks = findPeaks(edgels, reach, tolerance);
-    if (peaks.empty())
+    if (peaks.empty() || (peaks.size() < 2 && patient))
     {
       return false;
+    }
+    if (peaks.size() < 2)
+    {
+      patient = true;
+      rings.radii = {peaks[0].radius};
+      reach = nextReach(rings, patient);
+      continue;
     }
     Rings next = rings;
     next.radii.clear();
@@ -207,7 +251,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
       next.radii.resize(MAX_BOUNDARIES);
     }
     const double gate = rough ? std::max(1.5, .04 * next.radii.back()) : std::max(1., .015 * next.radii.back());
-    if (!refineWith(edgels, gate, true, next))
+    if (!refineWith(edgels, gate, true, COARSE_POINTS, next))
     {
       return false;
     }

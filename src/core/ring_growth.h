@@ -25,6 +25,7 @@ struct RadialEdgel
 {
   cv::Point2f position;       ///< [px]
   float radius = 0;           ///< on the family's plane [px]
+  bool brighter_outside = false;
   std::uint64_t bins = 0;     ///< directions that a pixel there covers
 };
 
@@ -37,7 +38,7 @@ struct RadialEdgel
 void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
                          std::vector<RadialEdgel>& edgels);
 
-/** Share of the directions in which an edgel lies within a tolerance of the circle [0, 1]. */
+/** Share of the directions in which an edgel of the more frequent sign lies within a tolerance of the circle [0, 1]. */
 double angularSupport(const std::vector<RadialEdgel>& edgels, double radius, double tolerance);
 
 /**

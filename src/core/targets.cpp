@@ -1,7 +1,11 @@
 #include "outdoor_omr/targets.h"
 
+#include <algorithm>
+
+#include "color_key.h"
 #include "edgels.h"
 #include "ring_candidate.h"
+#include "ring_colors.h"
 #include "ring_seeds.h"
 
 namespace outdoor_omr
@@ -22,7 +26,10 @@ Target toTarget(const RingCandidate& candidate)
   {
     target.rings.push_back(candidate.rings.family.ellipse(radius));
   }
-  target.colors = std::string(target.rings.size(), '?');
+  std::vector<LinearColor> colors = measureRingColors(candidate.profile, candidate.rings.radii);
+  const LinearColor around = colors.back();
+  colors.pop_back();
+  target.colors = readColorKey(colors, around);
   return target;
 }
 }  // namespace
