@@ -36,6 +36,8 @@ double profileReach(const Rings& rings)
   return rings.radii.back() + std::min(2.5 * widest, rings.radii.back()) + 3;
 }
 
+}  // namespace
+
 bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed)
 {
   std::vector<RadialEdgel> edgels;
@@ -49,18 +51,16 @@ bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed)
   }
   return best >= .55;
 }
-}  // namespace
-
-bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, RingCandidate& candidate)
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
 {
-  if (!hasOwnBoundary(map, seed))
-  {
-    return false;
-  }
   Rings& rings = candidate.rings;
   rings.family = seed.family;
-  rings.radii = {seed.radius + 1.2};
-  if (!growRings(map, seed.radius * 2.4 + 6, rings))
+  rings.radii.clear();
+  if (is_boundary)
+  {
+    rings.radii = {seed.radius + 1.2};
+  }
+  if (!growRings(map, seed.radius * (is_boundary ? 2.4 : 1.5) + 6, rings))
   {
     return false;
   }

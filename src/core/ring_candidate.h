@@ -19,12 +19,17 @@ struct RingCandidate
   RingProfile profile;               ///< of the final family
 };
 
+/** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
+bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed);
+
 /**
  * Grows a seed to a candidate: edgels give the family, the profile then says which boundaries there are.
  *
- * @return false if there are no two of them.
+ * @param is_boundary the seed's radius is that of a boundary; else only how far to look.
+ * @return            false if there are no two boundaries.
  */
-bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, RingCandidate& candidate);
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary,
+                   RingCandidate& candidate);
 
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "arc_seeds.h"
 #include "color_key.h"
 #include "edgels.h"
 #include "ring_candidate.h"
@@ -12,6 +13,8 @@ namespace outdoor_omr
 {
 namespace
 {
+constexpr int MAX_PIECES = 400;
+
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 {
   cv::Point2d gradient;
@@ -38,15 +41,35 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
 {
   EdgelMap map(frame.bgr);
   std::vector<RingCandidate> accepted;
-  for (const RingSeed& seed : findRoundSeeds(regions.regions))
-  {
-    const bool taken = std::any_of(accepted.begin(), accepted.end(), [&](const RingCandidate& candidate) {
-      return contains(candidate, seed.family.center);
-    });
+  const auto is_taken = [&](const cv::Point2d& point) {
+    return std::any_of(accepted.begin(), accepted.end(),
+                       [&](const RingCandidate& candidate) { return contains(candidate, point); });
+  };
+  const auto try_seed = [&](const RingSeed& seed, bool is_boundary) {
     RingCandidate candidate;
-    if (!taken && growCandidate(map, frame.bgr, seed, candidate) && isTarget(candidate, settings.target_min_rings))
+    if (growCandidate(map, frame.bgr, seed, is_boundary, candidate) && isTarget(candidate, settings.target_min_rings))
     {
       accepted.push_back(candidate);
+    }
+  };
+  for (const RingSeed& seed : findRoundSeeds(regions.regions))
+  {
+    if (!is_taken(seed.family.center) && hasOwnBoundary(map, seed))
+    {
+      try_seed(seed, true);
+    }
+  }
+  int budget = MAX_PIECES;
+  for (const Region* piece : findPieces(regions.regions))
+  {
+    RingSeed seed;
+    if (is_taken(piece->center) || --budget < 0)
+    {
+      continue;
+    }
+    if (findArcSeed(map, *piece, seed) && !is_taken(seed.family.center))
+    {
+      try_seed(seed, false);
     }
   }
   std::vector<Target> targets;
