@@ -15,9 +15,10 @@ constexpr int MAX_SIDE = 400;
 constexpr double MAX_ASPECT = 3.2;
 constexpr int MAX_EDGELS = 128;  // that vote
 constexpr int MIN_EDGELS = 20;
-constexpr int DRAWS = 48;
-constexpr double MAX_SINE = .1;     // between gradient and radius: an inlier
-constexpr double MIN_SCORE = .22;   // of the edgels, weighted by the root of the share of directions they cover
+constexpr int MIN_DRAWS = 20;
+constexpr int MAX_DRAWS = 160;
+constexpr double MAX_SINE = .1;      // between gradient and radius: an inlier
+constexpr double MIN_SCORE = .22;    // of the edgels, weighted by the root of the share of directions they cover
 constexpr double MAX_STRAIGHT = .8;  // share of the edgels in two directions: the piece has straight edges
 constexpr int DIRECTIONS = 24;       // of the histogram over half a turn
 
@@ -133,8 +134,7 @@ bool isStraight(const std::vector<Edgel>& edgels)
     int best_sum = -1;
     for (int i = 0; i < DIRECTIONS; ++i)
     {
-      const int sum =
-          histogram[i] + histogram[(i + 1) % DIRECTIONS] + histogram[(i + DIRECTIONS - 1) % DIRECTIONS];
+      const int sum = histogram[i] + histogram[(i + 1) % DIRECTIONS] + histogram[(i + DIRECTIONS - 1) % DIRECTIONS];
       best = sum > best_sum ? i : best;
       best_sum = std::max(best_sum, sum);
     }
@@ -162,11 +162,13 @@ double sineToRadius(const RingFamily& family, const Edgel& edgel, int& sector)
   return std::abs(edgel.nx * gy - edgel.ny * gx) / std::max(1e-9, std::sqrt(gx * gx + gy * gy));
 }
 
-double score(const RingFamily& family, const std::vector<Edgel>& edgels)
+/** Votes for a family: inliers, weighted by the root of the share of directions that they cover. */
+struct Votes
 {
   int inliers = 0;
   unsigned sectors = 0;
-  for (const Edgel& edgel : edgels)
+
+  void add(const RingFamily& family, const Edgel& edgel)
   {
     int sector = 0;
     if (sineToRadius(family, edgel, sector) < MAX_SINE)
@@ -175,7 +177,27 @@ double score(const RingFamily& family, const std::vector<Edgel>& edgels)
       sectors |= 1U << sector;
     }
   }
-  return inliers * std::sqrt(__builtin_popcount(sectors) / 16.);
+
+  double score() const
+  {
+    return inliers * std::sqrt(__builtin_popcount(sectors) / 16.);
+  }
+};
+
+Votes countVotes(const RingFamily& family, const std::vector<Edgel>& edgels, const Votes& best)
+{
+  Votes votes;
+  const std::size_t preview = edgels.size() / 4;
+  for (std::size_t i = 0; i < edgels.size(); ++i)
+  {
+    // A family that does far worse on the first quarter will not win.
+    if (i == preview && votes.inliers < best.inliers / 8)
+    {
+      return {};
+    }
+    votes.add(family, edgels[i]);
+  }
+  return votes;
 }
 
 /** Weighted least squares over the edgels that fit already. */
@@ -244,8 +266,9 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
   const cv::Point2d origin(piece.box.x + (piece.box.width - 1) / 2., piece.box.y + (piece.box.height - 1) / 2.);
   const double scale = side / 2 + 1;
   const double farthest = side * 2.5 + 10;
-  double best = 0;
-  for (int draw = 0; draw < DRAWS; ++draw)
+  Votes best;
+  int draws = MAX_DRAWS;
+  for (int draw = 0; draw < draws; ++draw)
   {
     std::array<Row, 4> rows;
     for (Row& row : rows)
@@ -257,15 +280,19 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
     if (nullVector(rows, solution) && toFamily(solution, origin, scale, family) &&
         cv::norm(family.center - origin) < farthest)
     {
-      const double value = score(family, voters);
-      if (value > best)
+      const Votes votes = countVotes(family, voters, best);
+      if (votes.score() > best.score())
       {
-        best = value;
+        best = votes;
         seed.family = family;
+        // Enough to have drawn four inliers once with a probability of 95 %.
+        const double share = votes.inliers / static_cast<double>(voters.size());
+        const double needed = std::log(.05) / std::log(1 - std::min(.99, share * share * share * share));
+        draws = static_cast<int>(std::clamp<double>(needed, MIN_DRAWS, MAX_DRAWS));
       }
     }
   }
-  if (best < MIN_SCORE * static_cast<double>(voters.size()))
+  if (best.score() < MIN_SCORE * static_cast<double>(voters.size()))
   {
     return false;
   }
@@ -279,9 +306,9 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
     seed.family = refined;
   }
   seed.radius = 0;
-  for (const cv::Point2d& corner :
-       {cv::Point2d(piece.box.tl()), cv::Point2d(piece.box.br()),
-        cv::Point2d(piece.box.x, piece.box.y + piece.box.height), cv::Point2d(piece.box.x + piece.box.width, piece.box.y)})
+  for (const cv::Point2d& corner : {cv::Point2d(piece.box.tl()), cv::Point2d(piece.box.br()),
+                                    cv::Point2d(piece.box.x, piece.box.y + piece.box.height),
+                                    cv::Point2d(piece.box.x + piece.box.width, piece.box.y)})
   {
     seed.radius = std::max(seed.radius, cv::norm(seed.family.toPlane(corner)));
   }

@@ -44,8 +44,7 @@ Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze
     for (int c = 0; c < 3; ++c)
     {
       const double reflectance = std::max(0., (ring[c] / white[c] - haze) / (1 - haze));
-      costs[letter] +=
-          squared((std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR)) / DEVIATION);
+      costs[letter] += squared((std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR)) / DEVIATION);
     }
     costs[letter] = std::min(costs[letter], LARGEST_COST);
   }

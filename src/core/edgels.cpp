@@ -10,9 +10,9 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int TILE = 32;                // [px]; a small target touches few tiles, a tile's border costs 40 %
-constexpr int HALO = 3;                 // two pixels for the 5x5 kernels, one for the comparison with neighbours
-constexpr int GRADIENTS = TILE + 2;     // side of the gradient tile [px]
+constexpr int TILE = 32;                 // [px]; a small target touches few tiles, a tile's border costs 40 %
+constexpr int HALO = 3;                  // two pixels for the 5x5 kernels, one for the comparison with neighbours
+constexpr int GRADIENTS = TILE + 2;      // side of the gradient tile [px]
 constexpr int PIXELS = TILE + 2 * HALO;  // side of the pixel tile [px]
 constexpr int CHANNELS = 3;
 constexpr float KERNEL_SUM = 16;  // of the 3x3 Gaussian, which the 5x5 kernels contain undivided
@@ -69,8 +69,8 @@ void computeGradients(const cv::Mat& bgr, int tile_x, int tile_y, GradientTile& 
   {
     for (int j = 0; j < WIDTH; ++j)
     {
-      gx[j] = static_cast<std::int16_t>(slope[i][j] + 4 * slope[i + 1][j] + 6 * slope[i + 2][j] +
-                                        4 * slope[i + 3][j] + slope[i + 4][j]);
+      gx[j] = static_cast<std::int16_t>(slope[i][j] + 4 * slope[i + 1][j] + 6 * slope[i + 2][j] + 4 * slope[i + 3][j] +
+                                        slope[i + 4][j]);
       gy[j] = static_cast<std::int16_t>(smooth[i + 4][j] - smooth[i][j] + 2 * (smooth[i + 3][j] - smooth[i + 1][j]));
     }
     for (int j = 0; j < GRADIENTS; ++j)
@@ -155,9 +155,9 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
 }  // namespace
 
 EdgelMap::EdgelMap(const cv::Mat& bgr)
-  : bgr_(bgr),
-    grid_((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE),
-    tiles_(static_cast<std::size_t>(grid_.area()))
+    : bgr_(bgr),
+      grid_((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE),
+      tiles_(static_cast<std::size_t>(grid_.area()))
 {
   threshold_ = std::clamp(NOISE_FACTOR * medianMagnitude(bgr, grid_), LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
 }

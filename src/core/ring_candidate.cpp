@@ -9,6 +9,12 @@ namespace
 {
 constexpr int MAX_ROUNDS = 4;
 
+// Evidence: mean over the boundaries of coherence times the mean of agreement and support.
+constexpr double CLEAR_EVIDENCE = .74;
+constexpr double LEAST_EVIDENCE = .6;     // of a large target whose boundaries fit: part of it may be hidden
+constexpr double LARGE_RADIUS = 25;       // [px]
+constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
+
 std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
 {
   std::vector<double> radii;
@@ -36,6 +42,16 @@ double profileReach(const Rings& rings)
   return rings.radii.back() + std::min(2.5 * widest, rings.radii.back()) + 3;
 }
 
+/**
+ * Strongest perspective |h| of a plane whose small circles have this aspect: sin(tilt) over the focal length in pixels,
+ * the latter at least half the image's longer side (a field of view of 90 degrees).
+ */
+double largestPerspective(const RingFamily& family, const cv::Size& image_size)
+{
+  const double aspect = family.aspect();
+  return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
+         (.5 * std::max(image_size.width, image_size.height));
+}
 }  // namespace
 
 bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed)
@@ -53,6 +69,7 @@ bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed)
 }
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
 {
+  candidate.image_size = bgr.size();
   Rings& rings = candidate.rings;
   rings.family = seed.family;
   rings.radii.clear();
@@ -101,12 +118,24 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   {
     return false;
   }
-  double sum = 0;
+  double evidence = 0;
   for (int k = 0; k < count; ++k)
   {
-    sum += candidate.support[k] * candidate.boundaries[k].coherence;
+    const Boundary& boundary = candidate.boundaries[k];
+    evidence += boundary.coherence * (boundary.agreement + candidate.support[k]) / (2 * count);
   }
-  return sum / count > .7;
+  const Rings& rings = candidate.rings;
+  const double outermost = rings.radii.back();
+  if (std::hypot(rings.family.hx, rings.family.hy) * outermost >
+      PERSPECTIVE_SLACK + largestPerspective(rings.family, candidate.image_size) * outermost)
+  {
+    return false;
+  }
+  if (evidence > CLEAR_EVIDENCE)
+  {
+    return true;
+  }
+  return evidence > LEAST_EVIDENCE && outermost > LARGE_RADIUS && rings.rms < .15 + .001 * outermost;
 }
 
 }  // namespace outdoor_omr

@@ -13,6 +13,7 @@ namespace outdoor_omr
 /** What may be a target, with the evidence for it. */
 struct RingCandidate
 {
+  cv::Size image_size;
   Rings rings;
   std::vector<Boundary> boundaries;  ///< one per radius of rings
   std::vector<double> support;       ///< angular support of each boundary by edgels [0, 1]
@@ -28,8 +29,7 @@ bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed);
  * @param is_boundary the seed's radius is that of a boundary; else only how far to look.
  * @return            false if there are no two boundaries.
  */
-bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary,
-                   RingCandidate& candidate);
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate);
 
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);

@@ -292,7 +292,7 @@ class Fit
   const std::vector<BoundaryPoint>& points_;
   bool perspective_;
   std::vector<double> errors_, next_errors_, sizes_;  // [px]
-  double limit_ = 1;  // Tukey's: errors beyond it do not count [px]
+  double limit_ = 1;                                  // Tukey's: errors beyond it do not count [px]
 };
 }  // namespace
 
@@ -353,8 +353,9 @@ cv::RotatedRect RingFamily::ellipse(double radius) const
   const double mean = (conic(0, 0) + conic(1, 1)) / 2;
   const double difference = std::hypot((conic(0, 0) - conic(1, 1)) / 2, conic(0, 1));
   const double angle = .5 * std::atan2(-2 * conic(0, 1), conic(1, 1) - conic(0, 0));
-  return {cv::Point2f(middle), cv::Size2f(static_cast<float>(2 * std::sqrt(level / (mean - difference))),
-                                          static_cast<float>(2 * std::sqrt(level / (mean + difference)))),
+  return {cv::Point2f(middle),
+          cv::Size2f(static_cast<float>(2 * std::sqrt(level / (mean - difference))),
+                     static_cast<float>(2 * std::sqrt(level / (mean + difference)))),
           static_cast<float>(angle * 180 / CV_PI)};
 }
 

@@ -15,9 +15,9 @@ namespace outdoor_omr
  */
 struct RingFamily
 {
-  cv::Point2d center;         ///< [px]
+  cv::Point2d center;          ///< [px]
   double a = 1, b = 0, d = 1;  ///< shape of small circles
-  double hx = 0, hy = 0;      ///< perspective [1/px]
+  double hx = 0, hy = 0;       ///< perspective [1/px]
 
   cv::Point2d toImage(const cv::Point2d& q) const;
   cv::Point2d toPlane(const cv::Point2d& p) const;

@@ -10,13 +10,13 @@ namespace
 {
 constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
 constexpr double FINE_COSINE = 0.9;
-constexpr double MIN_SUPPORT = 0.42;    // of the directions: 25 to 40 % of a target may be hidden
-constexpr double MIN_DISTANCE = 1.6;    // between two boundaries [px]: closer ones merge in the gradient
+constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
+constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
-constexpr double MAX_RADIUS = 600;  // [px]
+constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
-constexpr double CELL = 0.25;       // of the radial histogram [px]
+constexpr double CELL = 0.25;  // of the radial histogram [px]
 
 std::uint64_t binsAt(const cv::Point2d& q, double radius)
 {
@@ -255,8 +255,8 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     {
       return false;
     }
-    const bool grown = rings.radii.empty() || next.radii.size() > rings.radii.size() ||
-                       next.radii.back() > 1.05 * rings.radii.back();
+    const bool grown =
+        rings.radii.empty() || next.radii.size() > rings.radii.size() || next.radii.back() > 1.05 * rings.radii.back();
     rings = next;
     settled = grown ? 0 : settled + 1;
     if (settled > 0)

@@ -23,10 +23,10 @@ constexpr int ANGLE_BINS = 64;
 /** An edgel whose gradient points along the family's radius. */
 struct RadialEdgel
 {
-  cv::Point2f position;       ///< [px]
-  float radius = 0;           ///< on the family's plane [px]
+  cv::Point2f position;  ///< [px]
+  float radius = 0;      ///< on the family's plane [px]
   bool brighter_outside = false;
-  std::uint64_t bins = 0;     ///< directions that a pixel there covers
+  std::uint64_t bins = 0;  ///< directions that a pixel there covers
 };
 
 /**

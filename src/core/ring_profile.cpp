@@ -14,9 +14,9 @@ constexpr int MAX_SAMPLES = 400;    // a ray
 constexpr float DARK_LEVEL = 24;
 constexpr int LEVELS_PER_GREY = 4;
 // The margins of a ring that count as edge.
-constexpr double EDGE_SHARE = .3;       // of the ring's width
-constexpr double EDGE_WIDTH = 1.5;      // [px]
-constexpr double MIN_SURROUNDING = 3;   // width of what counts as around the rings [px]
+constexpr double EDGE_SHARE = .3;      // of the ring's width
+constexpr double EDGE_WIDTH = 1.5;     // [px]
+constexpr double MIN_SURROUNDING = 3;  // width of what counts as around the rings [px]
 
 const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
 {

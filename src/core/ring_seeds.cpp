@@ -7,8 +7,8 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MIN_AREA = 8;           // [px]
-constexpr double MAX_ASPECT = 4.2;    // of the ellipse
+constexpr int MIN_AREA = 8;            // [px]
+constexpr double MAX_ASPECT = 4.2;     // of the ellipse
 constexpr double BOX_TOLERANCE = .09;  // of the box that the moments predict
 constexpr double BOX_SLACK = 1.6;      // [px]
 constexpr double CENTER_TOLERANCE = .05;
@@ -44,11 +44,10 @@ bool isRound(const Region& region, RingSeed& seed)
   const double half_height = scale * std::sqrt(region.cyy);
   const double middle_x = region.box.x + (region.box.width - 1) / 2.;
   const double middle_y = region.box.y + (region.box.height - 1) / 2.;
-  const bool fills_box =
-      std::abs(region.box.width - 2 * half_width) < 2 * BOX_TOLERANCE * half_width + BOX_SLACK &&
-      std::abs(region.box.height - 2 * half_height) < 2 * BOX_TOLERANCE * half_height + BOX_SLACK &&
-      std::abs(middle_x - region.center.x) < 2 * CENTER_TOLERANCE * half_width + CENTER_SLACK &&
-      std::abs(middle_y - region.center.y) < 2 * CENTER_TOLERANCE * half_height + CENTER_SLACK;
+  const bool fills_box = std::abs(region.box.width - 2 * half_width) < 2 * BOX_TOLERANCE * half_width + BOX_SLACK &&
+                         std::abs(region.box.height - 2 * half_height) < 2 * BOX_TOLERANCE * half_height + BOX_SLACK &&
+                         std::abs(middle_x - region.center.x) < 2 * CENTER_TOLERANCE * half_width + CENTER_SLACK &&
+                         std::abs(middle_y - region.center.y) < 2 * CENTER_TOLERANCE * half_height + CENTER_SLACK;
   return fills_box && familyFromMoments(region.center, region.cxx, region.cxy, region.cyy, seed.family) &&
          seed.family.aspect() < MAX_ASPECT;
 }
