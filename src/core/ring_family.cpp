@@ -313,20 +313,6 @@ cv::Point2d RingFamily::toPlane(const cv::Point2d& p) const
   return {(m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det};
 }
 
-double RingFamily::radius(const cv::Point2d& p, cv::Point2d& gradient) const
-{
-  const cv::Point2d q = toPlane(p);
-  const cv::Point2d dp = p - center;
-  const double r = std::sqrt(q.x * q.x + q.y * q.y);
-  const double m00 = a - dp.x * hx;
-  const double m01 = b - dp.x * hy;
-  const double m10 = b - dp.y * hx;
-  const double m11 = d - dp.y * hy;
-  const double factor = (1 + hx * q.x + hy * q.y) / ((m00 * m11 - m01 * m10) * std::max(r, 1e-6));
-  gradient = {(m11 * q.x - m10 * q.y) * factor, (m00 * q.y - m01 * q.x) * factor};
-  return r;
-}
-
 double RingFamily::aspect() const
 {
   const double mean = (a + d) / 2;

@@ -22,9 +22,6 @@ struct RingFamily
   cv::Point2d toImage(const cv::Point2d& q) const;
   cv::Point2d toPlane(const cv::Point2d& p) const;
 
-  /** Distance from the centre on the plane, and its gradient over image positions. */
-  double radius(const cv::Point2d& p, cv::Point2d& gradient) const;
-
   /** Longest over shortest axis of small circles, >= 1. */
   double aspect() const;
 

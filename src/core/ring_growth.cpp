@@ -13,7 +13,8 @@ constexpr double FINE_COSINE = 0.9;
 constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
 constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
-constexpr double MAX_RADIUS = 600;          // [px]
+constexpr double MAX_RADIUS = 600;         // [px]
+constexpr double MIN_RADIUS = .8;          // of an edgel [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
 constexpr double CELL = 0.25;  // of the radial histogram [px]
@@ -173,19 +174,34 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
   edgels.clear();
   const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
   const cv::Point2d& c = family.center;
+  const double max_squared = max_radius * max_radius;
+  const double min_squared = MIN_RADIUS * MIN_RADIUS;
+  const double squared_cosine = min_cosine * min_cosine;
   map.visit(c.x - half.x, c.y - half.y, c.x + half.x, c.y + half.y, [&](const Edgel& edgel) {
-    cv::Point2d gradient;
-    const cv::Point2d position(edgel.x, edgel.y);
-    const double radius = family.radius(position, gradient);
-    if (radius > max_radius || radius < .8)
+    // RingFamily::toPlane() and the gradient of the radius, up to a positive factor, without divisions.
+    const double dx = edgel.x - c.x;
+    const double dy = edgel.y - c.y;
+    const double m00 = family.a - dx * family.hx;
+    const double m01 = family.b - dx * family.hy;
+    const double m10 = family.b - dy * family.hx;
+    const double m11 = family.d - dy * family.hy;
+    const double det = m00 * m11 - m01 * m10;
+    const double qx = m11 * dx - m01 * dy;
+    const double qy = m00 * dy - m10 * dx;
+    const double squared = qx * qx + qy * qy;
+    const double det_squared = det * det;
+    if (squared > max_squared * det_squared || squared < min_squared * det_squared)
     {
       return;
     }
-    const double projection = gradient.x * edgel.nx + gradient.y * edgel.ny;
-    if (projection * projection >= min_cosine * min_cosine * gradient.dot(gradient))
+    const double gx = m11 * qx - m10 * qy;
+    const double gy = m00 * qy - m01 * qx;
+    const double projection = gx * edgel.nx + gy * edgel.ny;
+    if (projection * projection >= squared_cosine * (gx * gx + gy * gy))
     {
+      const double radius = std::sqrt(squared) / det;
       edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius), projection > 0,
-                        binsAt(family.toPlane(position), radius)});
+                        binsAt(cv::Point2d(qx, qy), radius)});
     }
   });
 }
@@ -222,7 +238,6 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     }
   }
   bool patient = false;
-  std::size_t settled = 0;  // rounds without a new boundary
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
     const bool rough = rings.radii.size() < 2;
@@ -258,19 +273,11 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     const bool grown =
         rings.radii.empty() || next.radii.size() > rings.radii.size() || next.radii.back() > 1.05 * rings.radii.back();
     rings = next;
-    settled = grown ? 0 : settled + 1;
-    if (settled > 0)
+    if (!grown && patient)
     {
-      if (patient && settled > 1)
-      {
-        break;
-      }
-      patient = true;
+      break;
     }
-    else
-    {
-      patient = false;
-    }
+    patient = !grown;
     reach = std::max(nextReach(rings, patient), rings.radii.size() == 1 ? reach : 0.);
   }
   return rings.radii.size() >= 2;

@@ -13,12 +13,11 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 400;
+constexpr int MAX_PIECES = 150;
 
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 {
-  cv::Point2d gradient;
-  return candidate.rings.family.radius(point, gradient) < candidate.rings.radii.back();
+  return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
 }
 
 Target toTarget(const RingCandidate& candidate)
