@@ -11,7 +11,7 @@ namespace
 {
 constexpr int MIN_AREA = 20;  // of a piece [px]
 constexpr int MIN_SIDE = 8;   // of its box [px]
-constexpr int MAX_SIDE = 400;
+constexpr int MAX_SIDE = 600;
 constexpr double MAX_ASPECT = 3.2;
 constexpr int MAX_EDGELS = 128;  // that vote
 constexpr int MIN_EDGELS = 20;

@@ -11,6 +11,8 @@ namespace
 constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
 constexpr double FINE_COSINE = 0.9;
 constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
+constexpr double RELATIVE_SUPPORT = 0.6;   // of the best supported boundary
+constexpr double ABOVE_BACKGROUND = 0.2;   // above the median over all radii
 constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
 constexpr double MAX_RADIUS = 600;         // [px]
@@ -59,6 +61,15 @@ struct Peak
   double support = 0;
 };
 
+/** What a boundary needs: clearly more than texture and noise give at any radius, and not far less than the best. */
+double leastSupport(std::vector<double> support)
+{
+  const double strongest = *std::max_element(support.begin(), support.end());
+  const auto middle = support.begin() + static_cast<std::ptrdiff_t>(support.size() / 2);
+  std::nth_element(support.begin(), middle, support.end());
+  return std::max({MIN_SUPPORT, RELATIVE_SUPPORT * strongest, *middle + ABOVE_BACKGROUND});
+}
+
 /** Radii at which the angular support has a maximum, ascending. */
 std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_radius, double tolerance)
 {
@@ -79,7 +90,11 @@ std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_r
       united.add(bins[j]);
     }
     support[i] = united.share();
-    if (support[i] >= MIN_SUPPORT)
+  }
+  const double least = leastSupport(support);
+  for (int i = 0; i < cells; ++i)
+  {
+    if (support[i] >= least)
     {
       order.push_back(i);
     }
