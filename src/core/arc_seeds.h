@@ -1,0 +1,27 @@
+#ifndef OUTDOOR_OMR_CORE_ARC_SEEDS_H
+#define OUTDOOR_OMR_CORE_ARC_SEEDS_H
+
+#include <vector>
+
+#include "edgels.h"
+#include "outdoor_omr/region.h"
+#include "ring_seeds.h"
+
+namespace outdoor_omr
+{
+/**
+ * Regions that may be sectors or arcs of a ring, as a shadow's edge or an occluder leaves them; the largest first.
+ */
+std::vector<const Region*> findPieces(const std::vector<Region>& regions);
+
+/**
+ * Family of concentric circles from the edges of a piece and its surroundings, without saying which edge belongs to
+ * which circle: all circles of a family share centre and shape, so four edgels of any of them determine it (RANSAC).
+ *
+ * @return false if the edges are straight or no family explains enough of them.
+ */
+bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed);
+
+}  // namespace outdoor_omr
+
+#endif

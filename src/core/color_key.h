@@ -1,0 +1,31 @@
+#ifndef OUTDOOR_OMR_CORE_COLOR_KEY_H
+#define OUTDOOR_OMR_CORE_COLOR_KEY_H
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace outdoor_omr
+{
+/** Red, green and blue in linear light, 1 = the brightest the camera can tell. */
+using LinearColor = cv::Vec3d;
+
+/** Inverse of the sRGB transfer function. @param grey_level [0, 255] */
+double linearLight(double grey_level);
+
+/**
+ * Reads the colours of rings by the paper's key (section 3.3): W white, P black, R red, G green, B blue, ? unknown.
+ *
+ * Each ring is judged relative to the white of its place, not by absolute levels, which gave the paper 83.5 %: white
+ * is the surroundings, a ring, or a neutral colour of unknown brightness, whichever explains all rings best; a haze
+ * that lifts all of them may be part of the explanation. Neighbours differ. A ring whose second best letter explains
+ * the whole nearly as well, or which no letter explains, is '?'.
+ *
+ * @param rings  from the inside out, as if under one light.
+ * @param around what surrounds the outermost ring; paper or anything else.
+ */
+std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around);
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,75 @@
+#ifndef OUTDOOR_OMR_CORE_EDGELS_H
+#define OUTDOOR_OMR_CORE_EDGELS_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace outdoor_omr
+{
+/** Edge element: a point of an edge with sub-pixel position and the direction of its gradient. */
+struct Edgel
+{
+  float x, y;       ///< [px], pixel (0, 0) has its centre at (0, 0)
+  float nx, ny;     ///< unit gradient of the strongest colour channel, towards the brighter side
+  float magnitude;  ///< length of that gradient: the 3x3 Sobel response on the 3x3 Gaussian [grey levels]
+};
+
+/**
+ * Edgels of an image, computed in tiles when they are first asked for: most of a picture never is.
+ *
+ * An edgel is a maximum of the gradient along its own direction, placed by a parabola. The gradient is that of the
+ * strongest of B, G and R, as in the fill pipeline's edges (paper, section 3.1). Not thread-safe.
+ */
+class EdgelMap
+{
+ public:
+  /**
+   * @param bgr H x W, CV_8UC3, not empty; shared, not copied.
+   */
+  explicit EdgelMap(const cv::Mat& bgr);
+
+  /** Weakest magnitude of an edgel [grey levels]: follows the noise of the picture. */
+  float threshold() const
+  {
+    return threshold_;
+  }
+
+  /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
+  template <typename Visitor>
+  void visit(double left, double top, double right, double bottom, Visitor&& visitor)
+  {
+    const cv::Rect tiles = tilesOf(left, top, right, bottom);
+    for (int row = tiles.y; row < tiles.y + tiles.height; ++row)
+    {
+      for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
+      {
+        for (const Edgel& edgel : tile(col, row))
+        {
+          if (edgel.x >= left && edgel.x <= right && edgel.y >= top && edgel.y <= bottom)
+          {
+            visitor(edgel);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  struct Tile
+  {
+    bool computed = false;
+    std::vector<Edgel> edgels;
+  };
+
+  cv::Rect tilesOf(double left, double top, double right, double bottom) const;
+  const std::vector<Edgel>& tile(int col, int row);
+
+  cv::Mat bgr_;
+  float threshold_ = 0;
+  cv::Size grid_;
+  std::vector<Tile> tiles_;
+};
+
+}  // namespace outdoor_omr
+
+#endif

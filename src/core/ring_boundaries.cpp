@@ -1,0 +1,262 @@
+#include "ring_boundaries.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace outdoor_omr
+{
+namespace
+{
+constexpr int ANGLES = RingProfile::ANGLES;
+constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
+constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all directions see the same pixels
+constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
+constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
+constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
+constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
+constexpr double CLEAR_CONTRAST = .3;
+constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target may be half hidden
+constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
+constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
+constexpr double MAX_WIDTH_RATIO = 5;        // of the rings of one target
+
+int bits(std::uint64_t mask)
+{
+  return __builtin_popcountll(mask);
+}
+
+using Values = std::array<float, ANGLES>;
+
+float median(Values& values, int count)
+{
+  std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
+  return values[count / 2];
+}
+
+float brightest(const cv::Vec3f& grey)
+{
+  return std::max({grey[0], grey[1], grey[2]});
+}
+
+/**
+ * Median slope of each channel at each radius, relative to the brightness there. Of grey levels: logarithms would move
+ * a rising and a falling channel of one edge apart.
+ */
+std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
+{
+  const int reach = std::max(1, static_cast<int>(std::lround(1 / profile.step)));
+  std::vector<cv::Vec3f> slopes(static_cast<std::size_t>(profile.count));
+  for (int i = reach; i + reach < profile.count; ++i)
+  {
+    std::array<Values, 3> values;
+    int count = 0;
+    for (int angle = 0; angle < ANGLES; ++angle)
+    {
+      if (i + reach < profile.inside[angle])
+      {
+        const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
+        const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
+        const float scale = 1 / (brightest(inner) + brightest(outer) + DARK_LEVEL);
+        for (int c = 0; c < 3; ++c)
+        {
+          values[c][count] = (outer[c] - inner[c]) * scale;
+        }
+        ++count;
+      }
+    }
+    for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
+    {
+      slopes[i][c] = median(values[c], count);
+    }
+  }
+  return slopes;
+}
+
+/** Radii at which the slope, as a length over the channels, has a maximum. */
+std::vector<double> candidates(const RingProfile& profile)
+{
+  std::vector<double> slopes;
+  for (const cv::Vec3f& slope : medianSlopes(profile))
+  {
+    slopes.push_back(cv::norm(slope));
+  }
+  const int reach = std::max(1, static_cast<int>(1 / profile.step));
+  std::vector<double> radii;
+  int last = -1;
+  for (int i = static_cast<int>(MIN_RADIUS / profile.step); i + 1 < profile.count; ++i)
+  {
+    const auto from = slopes.begin() + std::max(0, i - reach);
+    const auto to = slopes.begin() + std::min(profile.count, i + reach + 1);
+    if (slopes[i] <= MIN_SLOPE || std::max_element(from, to) != slopes.begin() + i)
+    {
+      continue;
+    }
+    if (last >= 0)
+    {
+      // One edge may give two maxima; between two edges the slope falls.
+      const double valley = *std::min_element(slopes.begin() + last, slopes.begin() + i);
+      if (valley > VALLEY * std::min(slopes[i], slopes[last]))
+      {
+        if (slopes[i] <= slopes[last])
+        {
+          continue;
+        }
+        radii.pop_back();
+      }
+    }
+    const double curvature = slopes[i - 1] + slopes[i + 1] - 2 * slopes[i];
+    const double offset = curvature < 0 ? std::clamp(.5 * (slopes[i - 1] - slopes[i + 1]) / curvature, -.5, .5) : 0;
+    radii.push_back((i + offset) * profile.step);
+    last = i;
+  }
+  return radii;
+}
+
+/** How far to either side of a boundary its whole step shows [px]. */
+double stepReach(const std::vector<double>& radii, std::size_t k)
+{
+  const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
+  const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
+  return std::min({.5 * inside, .5 * outside, std::max(2., .02 * radii[k])});
+}
+
+Boundary measure(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
+{
+  const double reach = stepReach(radii, k);
+  const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
+  const int outer = static_cast<int>(std::lround((radii[k] + reach) / profile.step));
+  std::array<LogColor, ANGLES> steps;
+  std::array<LogColor, ANGLES> local_steps;
+  std::array<Values, 3> values;
+  Boundary boundary;
+  boundary.radius = radii[k];
+  int count = 0;
+  LogColor sum;
+  double length_sum = 0;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    LogColor before;
+    LogColor after;
+    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before) &&
+        ringColor(profile, radii, k + 1, angle, after))
+    {
+      local_steps[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
+      steps[angle] = after - before;
+      sum += steps[angle];
+      length_sum += cv::norm(steps[angle]);
+      for (int c = 0; c < 3; ++c)
+      {
+        values[c][count] = steps[angle][c];
+      }
+      boundary.seen |= std::uint64_t{1} << angle;
+      ++count;
+    }
+  }
+  if (count < MIN_ANGLES)
+  {
+    return boundary;
+  }
+  boundary.change = LogColor(median(values[0], count), median(values[1], count), median(values[2], count));
+  boundary.contrast = cv::norm(boundary.change);
+  boundary.coherence = length_sum > 0 ? cv::norm(sum) / length_sum : 0;
+  const double squared = boundary.contrast * boundary.contrast;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    const double along = steps[angle].dot(boundary.change);
+    const double here = local_steps[angle].dot(boundary.change);
+    if ((boundary.seen >> angle & 1) != 0 && along > .4 * squared && along < 2.5 * squared && here > .35 * squared)
+    {
+      boundary.agreeing |= std::uint64_t{1} << angle;
+    }
+  }
+  boundary.agreement = bits(boundary.agreeing) / static_cast<double>(count);
+  return boundary;
+}
+
+/** Below 1: no boundary. A faint step must show in nearly all directions. */
+double quality(const std::vector<Boundary>& boundaries, std::size_t k)
+{
+  const Boundary& boundary = boundaries[k];
+  const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
+  double result =
+      std::min(boundary.contrast / MIN_CONTRAST, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
+  if (k > 0 && k + 1 == boundaries.size())
+  {
+    // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.
+    const std::uint64_t inner = boundaries[k - 1].agreeing & boundary.seen;
+    const double shared = bits(inner & boundary.agreeing) / std::max(1., static_cast<double>(bits(inner)));
+    result = std::min(result, shared / MIN_OUTER_AGREEMENT);
+  }
+  return result;
+}
+
+/** Index of a ring that is far narrower than the widest, or -1. */
+int tooNarrow(const std::vector<double>& radii)
+{
+  double widest = 0;
+  double narrowest = std::numeric_limits<double>::infinity();
+  int index = -1;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    const double width = radii[k] - (k > 0 ? radii[k - 1] : 0);
+    widest = std::max(widest, width);
+    if (width < narrowest)
+    {
+      narrowest = width;
+      index = static_cast<int>(k);
+    }
+  }
+  return narrowest * MAX_WIDTH_RATIO < widest ? index : -1;
+}
+}  // namespace
+
+std::vector<Boundary> findBoundaries(const RingProfile& profile)
+{
+  std::vector<double> radii = candidates(profile);
+  std::vector<Boundary> boundaries(radii.size());
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    boundaries[k] = measure(profile, radii, k);
+  }
+  const auto remove = [&](std::size_t k) {
+    const auto offset = static_cast<std::ptrdiff_t>(k);
+    radii.erase(radii.begin() + offset);
+    boundaries.erase(boundaries.begin() + offset);
+    for (std::size_t neighbor = k > 0 ? k - 1 : 0; neighbor < std::min(k + 1, radii.size()); ++neighbor)
+    {
+      boundaries[neighbor] = measure(profile, radii, neighbor);
+    }
+  };
+  while (!radii.empty())
+  {
+    std::size_t worst = 0;
+    double worst_quality = 1;
+    for (std::size_t k = 0; k < radii.size(); ++k)
+    {
+      const double value = quality(boundaries, k);
+      if (value < worst_quality)
+      {
+        worst = k;
+        worst_quality = value;
+      }
+    }
+    if (worst_quality < 1)
+    {
+      remove(worst);
+      continue;
+    }
+    const int narrow = tooNarrow(radii);
+    if (narrow < 0)
+    {
+      break;
+    }
+    // Of the two boundaries of the narrow ring the fainter one goes.
+    const bool inner_fainter = narrow > 0 && boundaries[narrow - 1].contrast < boundaries[narrow].contrast;
+    remove(static_cast<std::size_t>(inner_fainter ? narrow - 1 : narrow));
+  }
+  return boundaries;
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,141 @@
+#include "ring_candidate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace outdoor_omr
+{
+namespace
+{
+constexpr int MAX_ROUNDS = 4;
+
+// Evidence: mean over the boundaries of coherence times the mean of agreement and support.
+constexpr double CLEAR_EVIDENCE = .74;
+constexpr double LEAST_EVIDENCE = .6;     // of a large target whose boundaries fit: part of it may be hidden
+constexpr double LARGE_RADIUS = 25;       // [px]
+constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
+
+std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
+{
+  std::vector<double> radii;
+  for (const Boundary& boundary : boundaries)
+  {
+    radii.push_back(boundary.radius);
+  }
+  if (radii.size() > MAX_BOUNDARIES)
+  {
+    radii.resize(MAX_BOUNDARIES);
+  }
+  return radii;
+}
+
+/** How far beyond the outermost boundary another may lie. */
+double profileReach(const Rings& rings)
+{
+  double widest = 0;
+  double inner = 0;
+  for (const double radius : rings.radii)
+  {
+    widest = std::max(widest, radius - inner);
+    inner = radius;
+  }
+  return rings.radii.back() + std::min(2.5 * widest, rings.radii.back()) + 3;
+}
+
+/**
+ * Strongest perspective |h| of a plane whose small circles have this aspect: sin(tilt) over the focal length in pixels,
+ * the latter at least half the image's longer side (a field of view of 90 degrees).
+ */
+double largestPerspective(const RingFamily& family, const cv::Size& image_size)
+{
+  const double aspect = family.aspect();
+  return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
+         (.5 * std::max(image_size.width, image_size.height));
+}
+}  // namespace
+
+bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed)
+{
+  std::vector<RadialEdgel> edgels;
+  const double radius = seed.radius + 1.2;  // the region ends where its edge begins
+  collectRadialEdgels(map, seed.family, radius * 1.2 + 2, .85, edgels);
+  const double tolerance = std::max(.9, .03 * radius);
+  double best = 0;
+  for (double r = radius * .85 - .6; r < radius * 1.2 + 1; r += .5)
+  {
+    best = std::max(best, angularSupport(edgels, r, tolerance));
+  }
+  return best >= .55;
+}
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
+{
+  candidate.image_size = bgr.size();
+  Rings& rings = candidate.rings;
+  rings.family = seed.family;
+  rings.radii.clear();
+  if (is_boundary)
+  {
+    rings.radii = {seed.radius + 1.2};
+  }
+  if (!growRings(map, seed.radius * (is_boundary ? 2.4 : 1.5) + 6, rings))
+  {
+    return false;
+  }
+  for (int round = 0; round < MAX_ROUNDS; ++round)
+  {
+    sampleProfile(bgr, rings.family, profileReach(rings), candidate.profile);
+    candidate.boundaries = findBoundaries(candidate.profile);
+    if (candidate.boundaries.size() < 2)
+    {
+      return false;
+    }
+    const std::vector<double> before = rings.radii;
+    rings.radii = radiiOf(candidate.boundaries);
+    if (!refineRings(map, std::max(1., .012 * rings.radii.back()), true, rings))
+    {
+      return false;
+    }
+    if (before.size() == rings.radii.size() && std::abs(before.back() - rings.radii.back()) < .3)
+    {
+      break;
+    }
+  }
+  candidate.boundaries.resize(rings.radii.size());
+  std::vector<RadialEdgel> edgels;
+  collectRadialEdgels(map, rings.family, rings.radii.back() + 3, .92, edgels);
+  candidate.support.clear();
+  for (const double radius : rings.radii)
+  {
+    candidate.support.push_back(angularSupport(edgels, radius, std::max(.8, .012 * rings.radii.back())));
+  }
+  return true;
+}
+
+bool isTarget(const RingCandidate& candidate, int min_rings)
+{
+  const int count = static_cast<int>(candidate.boundaries.size());
+  if (count < min_rings)
+  {
+    return false;
+  }
+  double evidence = 0;
+  for (int k = 0; k < count; ++k)
+  {
+    const Boundary& boundary = candidate.boundaries[k];
+    evidence += boundary.coherence * (boundary.agreement + candidate.support[k]) / (2 * count);
+  }
+  const Rings& rings = candidate.rings;
+  const double outermost = rings.radii.back();
+  if (std::hypot(rings.family.hx, rings.family.hy) * outermost >
+      PERSPECTIVE_SLACK + largestPerspective(rings.family, candidate.image_size) * outermost)
+  {
+    return false;
+  }
+  if (evidence > CLEAR_EVIDENCE)
+  {
+    return true;
+  }
+  return evidence > LEAST_EVIDENCE && outermost > LARGE_RADIUS && rings.rms < .15 + .001 * outermost;
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,39 @@
+#ifndef OUTDOOR_OMR_CORE_RING_CANDIDATE_H
+#define OUTDOOR_OMR_CORE_RING_CANDIDATE_H
+
+#include <vector>
+
+#include "ring_boundaries.h"
+#include "ring_growth.h"
+#include "ring_profile.h"
+#include "ring_seeds.h"
+
+namespace outdoor_omr
+{
+/** What may be a target, with the evidence for it. */
+struct RingCandidate
+{
+  cv::Size image_size;
+  Rings rings;
+  std::vector<Boundary> boundaries;  ///< one per radius of rings
+  std::vector<double> support;       ///< angular support of each boundary by edgels [0, 1]
+  RingProfile profile;               ///< of the final family
+};
+
+/** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
+bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed);
+
+/**
+ * Grows a seed to a candidate: edgels give the family, the profile then says which boundaries there are.
+ *
+ * @param is_boundary the seed's radius is that of a boundary; else only how far to look.
+ * @return            false if there are no two boundaries.
+ */
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate);
+
+/** Whether the evidence is such as clutter does not give. */
+bool isTarget(const RingCandidate& candidate, int min_rings);
+
+}  // namespace outdoor_omr
+
+#endif

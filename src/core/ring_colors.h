@@ -1,0 +1,22 @@
+#ifndef OUTDOOR_OMR_CORE_RING_COLORS_H
+#define OUTDOOR_OMR_CORE_RING_COLORS_H
+
+#include <vector>
+
+#include "color_key.h"
+#include "ring_profile.h"
+
+namespace outdoor_omr
+{
+/**
+ * Colours of the rings and, last, of what is around them, as if under one light: each follows from its neighbour by
+ * the median step across their boundary, so that a shadow over part of the target cancels.
+ *
+ * @param radii boundaries of the rings on the profile's family [px], not empty.
+ * @return      radii.size() + 1 colours.
+ */
+std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<double>& radii);
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,66 @@
+#ifndef OUTDOOR_OMR_CORE_RING_FAMILY_H
+#define OUTDOOR_OMR_CORE_RING_FAMILY_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace outdoor_omr
+{
+/**
+ * Concentric circles of a plane as one camera sees them: one homography for all of them, so that its centre is the
+ * image of the circles' centre, which the ellipses' centres are not (Jiang and Quan, ICCV 2005).
+ *
+ * Plane point q appears at center + A q / (1 + h.q) with the symmetric A = [a b; b d], det A = 1: radii on the plane
+ * are about those in the image [px].
+ */
+struct RingFamily
+{
+  cv::Point2d center;          ///< [px]
+  double a = 1, b = 0, d = 1;  ///< shape of small circles
+  double hx = 0, hy = 0;       ///< perspective [1/px]
+
+  cv::Point2d toImage(const cv::Point2d& q) const;
+  cv::Point2d toPlane(const cv::Point2d& p) const;
+
+  /** Longest over shortest axis of small circles, >= 1. */
+  double aspect() const;
+
+  /** Half sides of a box around the image of the circle, without perspective. */
+  cv::Point2d halfBox(double radius) const;
+
+  /** The circle's image, an exact ellipse; size holds full axes [px], angle degrees. */
+  cv::RotatedRect ellipse(double radius) const;
+};
+
+/**
+ * The family whose small circles have the second moments' shape, without perspective.
+ *
+ * @return false if the moments are no ellipse's.
+ */
+bool familyFromMoments(const cv::Point2d& center, double cxx, double cxy, double cyy, RingFamily& family);
+
+/** An edgel on the outer boundary of a ring. */
+struct BoundaryPoint
+{
+  cv::Point2d position;  ///< [px]
+  int ring = 0;          ///< index into the radii
+};
+
+/** Largest number of boundaries that refineFamily() takes. */
+constexpr int MAX_BOUNDARIES = 16;
+
+/**
+ * Least squares fit of the family and of the radii to edgels, robust (Tukey) and damped (Levenberg-Marquardt). The
+ * radii are free: gamma and sharpening shift the boundaries to either side.
+ *
+ * @param perspective also estimate h, which needs two boundaries at least.
+ * @param family, radii the start; receive the result.
+ * @return            RMS distance of the points that count [px]; infinity, with nothing changed, if there is no
+ *                    plausible solution.
+ */
+double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
+                    std::vector<double>& radii);
+
+}  // namespace outdoor_omr
+
+#endif

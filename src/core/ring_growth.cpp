@@ -1,0 +1,301 @@
+#include "ring_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace outdoor_omr
+{
+namespace
+{
+constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
+constexpr double FINE_COSINE = 0.9;
+constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
+constexpr double RELATIVE_SUPPORT = 0.6;   // of the best supported boundary
+constexpr double ABOVE_BACKGROUND = 0.2;   // above the median over all radii
+constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
+constexpr int MAX_ROUNDS = 8;
+constexpr double MAX_RADIUS = 600;         // [px]
+constexpr double MIN_RADIUS = .8;          // of an edgel [px]
+constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
+constexpr std::size_t FINE_POINTS = 800;
+constexpr double CELL = 0.25;  // of the radial histogram [px]
+
+std::uint64_t binsAt(const cv::Point2d& q, double radius)
+{
+  const double angle = cv::fastAtan2(static_cast<float>(q.y), static_cast<float>(q.x)) * (ANGLE_BINS / 360.);
+  const double half = .6 / std::max(.6, radius) * (ANGLE_BINS / (2 * CV_PI));
+  std::uint64_t bins = 0;
+  for (int bin = static_cast<int>(std::floor(angle - half)); bin <= std::floor(angle + half); ++bin)
+  {
+    bins |= std::uint64_t{1} << ((bin + 2 * ANGLE_BINS) % ANGLE_BINS);
+  }
+  return bins;
+}
+
+/** Directions with edgels, apart by the gradient's sign: clutter has both on one circle, a boundary one. */
+struct SignedBins
+{
+  std::uint64_t brighter = 0, darker = 0;
+
+  void add(const RadialEdgel& edgel)
+  {
+    (edgel.brighter_outside ? brighter : darker) |= edgel.bins;
+  }
+
+  void add(const SignedBins& other)
+  {
+    brighter |= other.brighter;
+    darker |= other.darker;
+  }
+
+  double share() const
+  {
+    return std::max(__builtin_popcountll(brighter), __builtin_popcountll(darker)) / static_cast<double>(ANGLE_BINS);
+  }
+};
+
+struct Peak
+{
+  double radius = 0;
+  double support = 0;
+};
+
+/** What a boundary needs: clearly more than texture and noise give at any radius, and not far less than the best. */
+double leastSupport(std::vector<double> support)
+{
+  const double strongest = *std::max_element(support.begin(), support.end());
+  const auto middle = support.begin() + static_cast<std::ptrdiff_t>(support.size() / 2);
+  std::nth_element(support.begin(), middle, support.end());
+  return std::max({MIN_SUPPORT, RELATIVE_SUPPORT * strongest, *middle + ABOVE_BACKGROUND});
+}
+
+/** Radii at which the angular support has a maximum, ascending. */
+std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_radius, double tolerance)
+{
+  const int cells = static_cast<int>(max_radius / CELL) + 1;
+  std::vector<SignedBins> bins(static_cast<std::size_t>(cells));
+  for (const RadialEdgel& edgel : edgels)
+  {
+    bins[static_cast<std::size_t>(std::min(cells - 1, static_cast<int>(edgel.radius / CELL)))].add(edgel);
+  }
+  const int reach = static_cast<int>(std::lround(tolerance / CELL));
+  std::vector<double> support(bins.size());
+  std::vector<int> order;
+  for (int i = 0; i < cells; ++i)
+  {
+    SignedBins united;
+    for (int j = std::max(0, i - reach); j <= std::min(cells - 1, i + reach); ++j)
+    {
+      united.add(bins[j]);
+    }
+    support[i] = united.share();
+  }
+  const double least = leastSupport(support);
+  for (int i = 0; i < cells; ++i)
+  {
+    if (support[i] >= least)
+    {
+      order.push_back(i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int left, int right) { return support[left] > support[right]; });
+  std::vector<char> taken(bins.size(), 0);
+  std::vector<Peak> peaks;
+  const int distance = static_cast<int>(std::ceil(std::max(MIN_DISTANCE, 1.5 * tolerance) / CELL));
+  for (const int i : order)
+  {
+    if (taken[i])
+    {
+      continue;
+    }
+    int end = i;  // of the plateau of equal support
+    while (end + 1 < cells && !taken[end + 1] && support[end + 1] == support[i])
+    {
+      ++end;
+    }
+    std::fill(taken.begin() + std::max(0, i - distance), taken.begin() + std::min(cells, end + distance + 1), 1);
+    peaks.push_back({(i + end + 1) * .5 * CELL, support[i]});
+  }
+  std::sort(peaks.begin(), peaks.end(), [](const Peak& left, const Peak& right) { return left.radius < right.radius; });
+  return peaks;
+}
+
+/** Distance of each boundary to the nearest other, the centre included. */
+std::vector<double> clearances(const std::vector<double>& radii)
+{
+  std::vector<double> result(radii.size());
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
+    const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
+    result[k] = std::min(inside, outside);
+  }
+  return result;
+}
+
+/** Keeps at most max_points, evenly taken. */
+void thin(std::vector<BoundaryPoint>& points, std::size_t max_points)
+{
+  if (points.size() > max_points)
+  {
+    for (std::size_t i = 0; i < max_points; ++i)
+    {
+      points[i] = points[i * points.size() / max_points];
+    }
+    points.resize(max_points);
+  }
+}
+
+bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, std::size_t max_points,
+                Rings& rings)
+{
+  const std::vector<double> clearance = clearances(rings.radii);
+  std::vector<BoundaryPoint> points;
+  for (const RadialEdgel& edgel : edgels)
+  {
+    const auto next = std::lower_bound(rings.radii.begin(), rings.radii.end(), edgel.radius);
+    std::size_t k = static_cast<std::size_t>(next - rings.radii.begin());
+    if (k == rings.radii.size() || (k > 0 && edgel.radius - rings.radii[k - 1] < rings.radii[k] - edgel.radius))
+    {
+      --k;
+    }
+    if (std::abs(edgel.radius - rings.radii[k]) < std::min(gate, .45 * clearance[k]))
+    {
+      points.push_back({cv::Point2d(edgel.position), static_cast<int>(k)});
+    }
+  }
+  thin(points, max_points);
+  const double rms = refineFamily(points, perspective, rings.family, rings.radii);
+  if (!std::isfinite(rms))
+  {
+    return false;
+  }
+  rings.rms = rms;
+  return true;
+}
+
+/** How far to look for the next boundary: rings may be four times as wide as their neighbours. */
+double nextReach(const Rings& rings, bool patient)
+{
+  const double outermost = rings.radii.back();
+  return std::min(MAX_RADIUS, (rings.radii.size() == 1 ? (patient ? 5 : 2.4) : (patient ? 2.2 : 1.6)) * outermost + 5);
+}
+}  // namespace
+
+void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
+                         std::vector<RadialEdgel>& edgels)
+{
+  edgels.clear();
+  const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
+  const cv::Point2d& c = family.center;
+  const double max_squared = max_radius * max_radius;
+  const double min_squared = MIN_RADIUS * MIN_RADIUS;
+  const double squared_cosine = min_cosine * min_cosine;
+  map.visit(c.x - half.x, c.y - half.y, c.x + half.x, c.y + half.y, [&](const Edgel& edgel) {
+    // RingFamily::toPlane() and the gradient of the radius, up to a positive factor, without divisions.
+    const double dx = edgel.x - c.x;
+    const double dy = edgel.y - c.y;
+    const double m00 = family.a - dx * family.hx;
+    const double m01 = family.b - dx * family.hy;
+    const double m10 = family.b - dy * family.hx;
+    const double m11 = family.d - dy * family.hy;
+    const double det = m00 * m11 - m01 * m10;
+    const double qx = m11 * dx - m01 * dy;
+    const double qy = m00 * dy - m10 * dx;
+    const double squared = qx * qx + qy * qy;
+    const double det_squared = det * det;
+    if (squared > max_squared * det_squared || squared < min_squared * det_squared)
+    {
+      return;
+    }
+    const double gx = m11 * qx - m10 * qy;
+    const double gy = m00 * qy - m01 * qx;
+    const double projection = gx * edgel.nx + gy * edgel.ny;
+    if (projection * projection >= squared_cosine * (gx * gx + gy * gy))
+    {
+      const double radius = std::sqrt(squared) / det;
+      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius), projection > 0,
+                        binsAt(cv::Point2d(qx, qy), radius)});
+    }
+  });
+}
+
+double angularSupport(const std::vector<RadialEdgel>& edgels, double radius, double tolerance)
+{
+  SignedBins bins;
+  for (const RadialEdgel& edgel : edgels)
+  {
+    if (std::abs(edgel.radius - radius) <= tolerance)
+    {
+      bins.add(edgel);
+    }
+  }
+  return bins.share();
+}
+
+bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
+{
+  std::vector<RadialEdgel> edgels;
+  collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, FINE_COSINE, edgels);
+  return refineWith(edgels, gate, perspective, FINE_POINTS, rings);
+}
+
+bool growRings(EdgelMap& map, double reach, Rings& rings)
+{
+  std::vector<RadialEdgel> edgels;
+  if (!rings.radii.empty())
+  {
+    collectRadialEdgels(map, rings.family, rings.radii.back() * 1.2 + 3, COARSE_COSINE, edgels);
+    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, COARSE_POINTS, rings))
+    {
+      return false;
+    }
+  }
+  bool patient = false;
+  for (int round = 0; round < MAX_ROUNDS; ++round)
+  {
+    const bool rough = rings.radii.size() < 2;
+    collectRadialEdgels(map, rings.family, reach, rough ? COARSE_COSINE : FINE_COSINE, edgels);
+    const double tolerance = rough ? std::max(.9, .015 * reach) : std::max(.8, .008 * reach);
+    const std::vector<Peak> peaks = findPeaks(edgels, reach, tolerance);
+    if (peaks.empty() || (peaks.size() < 2 && patient))
+    {
+      return false;
+    }
+    if (peaks.size() < 2)
+    {
+      patient = true;
+      rings.radii = {peaks[0].radius};
+      reach = nextReach(rings, patient);
+      continue;
+    }
+    Rings next = rings;
+    next.radii.clear();
+    for (const Peak& peak : peaks)
+    {
+      next.radii.push_back(peak.radius);
+    }
+    if (next.radii.size() > MAX_BOUNDARIES)
+    {
+      next.radii.resize(MAX_BOUNDARIES);
+    }
+    const double gate = rough ? std::max(1.5, .04 * next.radii.back()) : std::max(1., .015 * next.radii.back());
+    if (!refineWith(edgels, gate, true, COARSE_POINTS, next))
+    {
+      return false;
+    }
+    const bool grown =
+        rings.radii.empty() || next.radii.size() > rings.radii.size() || next.radii.back() > 1.05 * rings.radii.back();
+    rings = next;
+    if (!grown && patient)
+    {
+      break;
+    }
+    patient = !grown;
+    reach = std::max(nextReach(rings, patient), rings.radii.size() == 1 ? reach : 0.);
+  }
+  return rings.radii.size() >= 2;
+}
+
+}  // namespace outdoor_omr

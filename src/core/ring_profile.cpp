@@ -1,0 +1,128 @@
+#include "ring_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace outdoor_omr
+{
+namespace
+{
+constexpr double FINEST_STEP = .5;  // [px]
+constexpr int MAX_SAMPLES = 400;    // a ray
+// Added before the logarithm [grey levels]: below it sensor noise and black level, not light, decide.
+constexpr float DARK_LEVEL = 24;
+constexpr int LEVELS_PER_GREY = 4;
+// The margins of a ring that count as edge.
+constexpr double EDGE_SHARE = .3;      // of the ring's width
+constexpr double EDGE_WIDTH = 1.5;     // [px]
+constexpr double MIN_SURROUNDING = 3;  // width of what counts as around the rings [px]
+
+const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
+{
+  static const auto TABLE = [] {
+    std::array<float, 255 * LEVELS_PER_GREY + 2> table{};
+    for (std::size_t i = 0; i < table.size(); ++i)
+    {
+      table[i] = std::log(static_cast<float>(i) / LEVELS_PER_GREY + DARK_LEVEL);
+    }
+    return table;
+  }();
+  return TABLE;
+}
+
+/** Bilinear sample; the caller keeps x and y inside [0, size - 1). */
+cv::Vec3f sample(const cv::Mat& bgr, float x, float y)
+{
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const float fx = x - left;
+  const float fy = y - top;
+  const auto* upper = bgr.ptr<uchar>(top) + 3 * left;
+  const auto* lower = bgr.ptr<uchar>(top + 1) + 3 * left;
+  cv::Vec3f grey;
+  for (int c = 0; c < 3; ++c)
+  {
+    const float above = upper[c] + fx * (upper[c + 3] - upper[c]);
+    const float below = lower[c] + fx * (lower[c + 3] - lower[c]);
+    grey[c] = above + fy * (below - above);
+  }
+  return grey;
+}
+
+LogColor logarithm(const cv::Vec3f& grey)
+{
+  const auto& table = logarithms();
+  LogColor color;
+  for (int c = 0; c < 3; ++c)
+  {
+    color[c] = table[static_cast<std::size_t>(grey[c] * LEVELS_PER_GREY + .5F)];
+  }
+  return color;
+}
+
+/** The part of a ring that its edges do not blur. */
+std::pair<double, double> plateau(const std::vector<double>& radii, std::size_t ring, double limit)
+{
+  const double inner = ring > 0 ? radii[ring - 1] : 0;
+  const double last_width = radii.back() - (radii.size() > 1 ? radii[radii.size() - 2] : 0);
+  const double outer =
+      ring < radii.size() ? radii[ring] : std::min(limit, radii.back() + std::max(MIN_SURROUNDING, .7 * last_width));
+  const double width = outer - inner;
+  const double margin = std::max(EDGE_SHARE * width, std::min(EDGE_WIDTH, .45 * width));
+  return {inner + margin, outer - margin};
+}
+}  // namespace
+
+void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile)
+{
+  profile.step = std::max(FINEST_STEP, max_radius / MAX_SAMPLES);
+  profile.count = static_cast<int>(max_radius / profile.step) + 1;
+  profile.grey.resize(static_cast<std::size_t>(RingProfile::ANGLES) * profile.count);
+  profile.color.resize(profile.grey.size());
+  profile.inside.assign(RingProfile::ANGLES, profile.count);
+  for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
+  {
+    const double phi = 2 * CV_PI * (angle + .5) / RingProfile::ANGLES;
+    const cv::Point2d direction(std::cos(phi), std::sin(phi));
+    cv::Vec3f* grey = &profile.grey[static_cast<std::size_t>(angle) * profile.count];
+    LogColor* color = &profile.color[static_cast<std::size_t>(angle) * profile.count];
+    for (int i = 0; i < profile.count; ++i)
+    {
+      const cv::Point2d p = family.toImage(direction * (i * profile.step));
+      if (!(p.x >= 0 && p.y >= 0 && p.x < bgr.cols - 1 && p.y < bgr.rows - 1))
+      {
+        profile.inside[angle] = i;
+        break;
+      }
+      grey[i] = sample(bgr, static_cast<float>(p.x), static_cast<float>(p.y));
+      color[i] = logarithm(grey[i]);
+    }
+  }
+}
+
+bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,
+               LogColor& color)
+{
+  const auto [from, to] = plateau(radii, ring, (profile.count - 1) * profile.step);
+  const int first = static_cast<int>(std::lround(from / profile.step));
+  const int last = std::max(first, static_cast<int>(std::lround(to / profile.step)));
+  if (last >= profile.inside[angle])
+  {
+    return false;
+  }
+  color = LogColor();
+  for (int i = first; i <= last; ++i)
+  {
+    color += profile.ray(angle)[i];
+  }
+  color *= 1.F / (last - first + 1);
+  return true;
+}
+
+double greyLevel(float log_color)
+{
+  return std::exp(log_color) - DARK_LEVEL;
+}
+
+}  // namespace outdoor_omr

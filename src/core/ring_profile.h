@@ -1,0 +1,60 @@
+#ifndef OUTDOOR_OMR_CORE_RING_PROFILE_H
+#define OUTDOOR_OMR_CORE_RING_PROFILE_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "ring_family.h"
+
+namespace outdoor_omr
+{
+/** Logarithm of B, G and R: a change of the light is a constant. */
+using LogColor = cv::Vec3f;
+
+/** Colours around a family's centre along rays, in the plane's polar coordinates. */
+struct RingProfile
+{
+  static constexpr int ANGLES = 64;
+
+  double step = 0;              ///< between the samples of a ray [px]
+  int count = 0;                ///< samples a ray, from the centre outwards
+  std::vector<cv::Vec3f> grey;  ///< ANGLES x count: B, G, R [0, 255]
+  std::vector<LogColor> color;  ///< the same as logarithms
+  std::vector<int> inside;      ///< per angle: samples of the ray that lie inside the image
+
+  const cv::Vec3f* greyRay(int angle) const
+  {
+    return &grey[static_cast<std::size_t>(angle) * count];
+  }
+
+  const LogColor* ray(int angle) const
+  {
+    return &color[static_cast<std::size_t>(angle) * count];
+  }
+};
+
+/**
+ * Samples the image along the rays.
+ *
+ * @param bgr        H x W, CV_8UC3.
+ * @param max_radius where the rays end [px].
+ * @param profile    receives the result; its memory is reused.
+ */
+void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile);
+
+/**
+ * Mean colour of a ring in one direction, away from its edges.
+ *
+ * @param radii boundaries of the rings [px].
+ * @param ring  index of the ring; radii.size() is what lies around the outermost.
+ * @return      false where the ray has left the image.
+ */
+bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,
+               LogColor& color);
+
+/** The grey level [0, 255] that a channel of a LogColor stands for. */
+double greyLevel(float log_color);
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef OUTDOOR_OMR_CORE_RING_SEEDS_H
+#define OUTDOOR_OMR_CORE_RING_SEEDS_H
+
+#include <vector>
+
+#include "edgels.h"
+#include "outdoor_omr/region.h"
+#include "ring_family.h"
+
+namespace outdoor_omr
+{
+/** A region that may be part of a target. */
+struct RingSeed
+{
+  RingFamily family;
+  double radius = 0;  ///< of the region's outer boundary [px]
+};
+
+/**
+ * Regions that are elliptic disks or annuli by their area, second moments and box (paper, section 3.3: which regions
+ * are circular is decided from the region data); the largest first.
+ */
+std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions);
+
+}  // namespace outdoor_omr
+
+#endif
