@@ -217,15 +217,15 @@ TEST(Overlay, paintsEveryRegionTheFirstBlueEdgesYellow)
   regions.edges = outdoor_omr::edgeMask(image, 100);
   regions.labels = outdoor_omr::labelRegions(regions.edges);
   const cv::Mat picture = outdoor_omr::drawOverlay(image, {}, regions);
-  const cv::Vec3b first_square = picture.at<cv::Vec3b>(20, 20);
-  const cv::Vec3b second_square = picture.at<cv::Vec3b>(40, 60);
+  const auto& first_square = picture.at<cv::Vec3b>(20, 20);
+  const auto& second_square = picture.at<cv::Vec3b>(40, 60);
   EXPECT_NE(first_square, second_square);
   std::set<std::tuple<int, int, int>> colors;
   for (int y = 0; y < image.rows; ++y)
   {
     for (int x = 0; x < image.cols; ++x)
     {
-      const auto pixel = picture.at<cv::Vec3b>(y, x);
+      const auto& pixel = picture.at<cv::Vec3b>(y, x);
       colors.emplace(pixel[0], pixel[1], pixel[2]);
       if (regions.edges.at<std::uint8_t>(y, x) != 0)
       {

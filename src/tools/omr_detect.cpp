@@ -272,9 +272,7 @@ ExitCode run(const Options& options)
   }
   return detectAll(options);
 }
-}  // namespace
-
-int main(int argc, char** argv)
+int parseAndRun(int argc, char** argv)
 {
   Options options;
   CLI::App app("Finds checkerboards and targets of concentric colour rings in images.");
@@ -302,6 +300,15 @@ int main(int argc, char** argv)
   catch (const CLI::ParseError& error)
   {
     return app.exit(error) == 0 ? SUCCESS : FAILED;
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return parseAndRun(argc, argv);
   }
   catch (const std::exception& error)
   {
