@@ -44,24 +44,31 @@ std::string escapedForPdf(const std::string& text)
   });
 }
 
-std::string svgShape(const Shape& shape)
+template <typename Value>
+std::string attribute(const std::string& name, const Value& value)
 {
   std::ostringstream text;
-  text << "fill=\"rgb(" << int{shape.color[2]} << "," << int{shape.color[1]} << "," << int{shape.color[0]} << ")\" ";
+  text << ' ' << name << "=\"" << value << '"';
+  return text.str();
+}
+
+std::string svgShape(const Shape& shape)
+{
+  std::ostringstream color;
+  color << "rgb(" << int{shape.color[2]} << ',' << int{shape.color[1]} << ',' << int{shape.color[0]} << ')';
+  const std::string fill = attribute("fill", color.str());
+  const std::string position = attribute("x", shape.position.x) + attribute("y", shape.position.y);
   switch (shape.kind)
   {
     case Shape::Kind::rectangle:
-      text << "x=\"" << shape.position.x << "\" y=\"" << shape.position.y << "\" width=\"" << shape.size.width
-           << "\" height=\"" << shape.size.height << "\"/>\n";
-      return "<rect " + text.str();
+      return "<rect" + fill + position + attribute("width", shape.size.width) + attribute("height", shape.size.height) +
+             "/>\n";
     case Shape::Kind::circle:
-      text << "cx=\"" << shape.position.x << "\" cy=\"" << shape.position.y << "\" r=\"" << shape.size.width
-           << "\"/>\n";
-      return "<circle " + text.str();
+      return "<circle" + fill + attribute("cx", shape.position.x) + attribute("cy", shape.position.y) +
+             attribute("r", shape.size.width) + "/>\n";
     case Shape::Kind::text:
-      text << "x=\"" << shape.position.x << "\" y=\"" << shape.position.y << "\" font-size=\"" << shape.size.height
-           << "\" font-family=\"Helvetica, Arial, sans-serif\">" << escapedForXml(shape.text) << "</text>\n";
-      return "<text " + text.str();
+      return "<text" + fill + position + attribute("font-size", shape.size.height) +
+             attribute("font-family", "Helvetica, Arial, sans-serif") + ">" + escapedForXml(shape.text) + "</text>\n";
   }
   throw std::logic_error("a shape without a kind");
 }
@@ -168,11 +175,13 @@ std::string pdfFile(const std::vector<std::string>& objects)
 
 std::string toSvg(const Sheet& sheet)
 {
-  std::ostringstream text;
   const cv::Size2d& page = sheet.page;
-  text << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << page.width << "mm\" height=\"" << page.height
-       << "mm\" viewBox=\"0 0 " << page.width << ' ' << page.height << "\">\n"
-       << "<rect fill=\"white\" width=\"" << page.width << "\" height=\"" << page.height << "\"/>\n";
+  std::ostringstream view;
+  view << "0 0 " << page.width << ' ' << page.height;
+  std::ostringstream text;
+  text << "<svg" << attribute("xmlns", "http://www.w3.org/2000/svg") << " width=\"" << page.width << "mm\" height=\""
+       << page.height << "mm\"" << attribute("viewBox", view.str()) << ">\n"
+       << svgShape({Shape::Kind::rectangle, {255, 255, 255}, {0, 0}, page, ""});
   for (const Shape& shape : sheet.shapes)
   {
     text << svgShape(shape);
