@@ -18,9 +18,11 @@ fi
 # Without a network the machine's own name may not resolve, and no node finds another.
 export ROS_HOSTNAME="${ROS_HOSTNAME:-127.0.0.1}"
 
-# Puts this package's own programs, messages and launch files within reach of rosrun and roslaunch.
+# Puts this package's programs on PATH, its messages and launch files within reach of roslaunch and rosbag. (rosrun
+# finds nothing in a build folder that lies inside the package; in a catkin workspace it does.)
 use_build() {
   set +u
   . "$OMR_BUILD/devel/setup.bash"
   set -u
+  export PATH="$OMR_BUILD/devel/lib/outdoor_omr:$PATH"
 }
