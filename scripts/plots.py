@@ -15,6 +15,10 @@ def markers(pictures, kind):
     return [marker for picture in pictures for marker in picture[kind] if marker['care']]
 
 
+def is_whole(marker):
+    return marker['visible_fraction'] > .999
+
+
 def recall_over(values, edges):
     """[(lower edge, upper edge, share of hits, number)] of the bins that hold something; values: [(value, hit)]."""
     bins = []
@@ -45,7 +49,7 @@ def plot_recall(series, edges, label, title, path, logarithmic=False):
     axes.set(xlabel=label, ylabel='recall', ylim=(-.02, 1.08), title=title)
     axes.grid(alpha=.3)
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc='lower right')
+        axes.legend(loc='lower left')
     figure.tight_layout()
     figure.savefig(path, dpi=110)
     plt.close(figure)
@@ -53,7 +57,7 @@ def plot_recall(series, edges, label, title, path, logarithmic=False):
 
 def plot_lighting(pictures, path):
     """Recall and precision of both kinds for each level of the factor "lighting"."""
-    counts = collections.defaultdict(lambda: collections.Counter())
+    counts = collections.defaultdict(collections.Counter)
     for picture in pictures:
         if 'lighting' in picture['factors']:
             for kind in ('checkerboard', 'target'):
@@ -70,9 +74,9 @@ def plot_lighting(pictures, path):
         axes.bar([x + .2 * (index - 1.5) for x in range(len(levels))], share, .2, label='%s %s' % (kind, name))
     axes.set_xticks(range(len(levels)))
     axes.set_xticklabels(levels)
-    axes.set(ylabel='share', ylim=(0, 1.05), title='By lighting')
+    axes.set(ylabel='share', ylim=(0, 1.2), title='By lighting')
     axes.grid(axis='y', alpha=.3)
-    axes.legend(loc='lower right')
+    axes.legend(loc='upper center', ncol=4, fontsize='small')
     figure.tight_layout()
     figure.savefig(path, dpi=110)
     plt.close(figure)
@@ -80,10 +84,10 @@ def plot_lighting(pictures, path):
 
 def write_all(pictures, folder):
     boards, targets = markers(pictures, 'boards'), markers(pictures, 'targets')
-    plot_recall({'checkerboards': [(board['min_square_px'], board['hit']) for board in boards],
-                 'targets': [(target['ring_px'], target['hit']) for target in targets]}, SIZE_EDGES_PX,
-                'shortest square side, ring width [px]', 'Recall over size', os.path.join(folder, 'recall_size.png'),
-                logarithmic=True)
+    sizes = {'checkerboards': [(board['min_square_px'], board['hit']) for board in boards if is_whole(board)],
+             'targets': [(target['ring_px'], target['hit']) for target in targets if is_whole(target)]}
+    plot_recall(sizes, SIZE_EDGES_PX, 'shortest square side, ring width [px]', 'Recall over size, nothing hidden',
+                os.path.join(folder, 'recall_size.png'), logarithmic=True)
     plot_recall({'checkerboards': [(1 - board['visible_fraction'], board['hit']) for board in boards],
                  'targets': [(1 - target['visible_fraction'], target['hit']) for target in targets]}, HIDDEN_EDGES,
                 'hidden share', 'Recall over occlusion', os.path.join(folder, 'recall_hidden.png'))

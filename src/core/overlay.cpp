@@ -86,7 +86,7 @@ void drawText(Canvas& canvas, const std::string& text, const cv::Point2d& anchor
     return;
   }
   const int font = cv::FONT_HERSHEY_SIMPLEX;
-  const double font_scale = 0.5 * canvas.scale;
+  const double font_scale = 0.45 * canvas.scale;
   const int outline = 3 * canvas.thickness;
   int below = 0;
   const cv::Size size = cv::getTextSize(text, font, font_scale, outline, &below);
