@@ -9,9 +9,9 @@ namespace
 using Json = nlohmann::ordered_json;
 
 /** A thousandth of a pixel is far below the accuracy of a corner (0.05 px). */
-double rounded(double pixels)
+double rounded(double value)
 {
-  return std::round(pixels * 1000) / 1000;
+  return std::round(value * 1000) / 1000;
 }
 
 template <typename Point>
@@ -61,14 +61,12 @@ Json toJson(const Target& target)
 }
 }  // namespace
 
-Json toJson(const std::string& image, const cv::Size& size, const Markers& markers)
+Json toJson(const std::string& image, const cv::Size& size, double milliseconds, const Markers& markers)
 {
   Json steps = Json::object();
-  double total = 0;
   for (const StepTime& time : markers.times)
   {
     steps[time.step] = rounded(time.milliseconds);
-    total += time.milliseconds;
   }
   Json checkerboards = Json::array();
   for (const Checkerboard& board : markers.checkerboards)
@@ -81,7 +79,7 @@ Json toJson(const std::string& image, const cv::Size& size, const Markers& marke
     targets.push_back(toJson(target));
   }
   return {{"image", image},        {"width", size.width},
-          {"height", size.height}, {"time_ms", rounded(total)},
+          {"height", size.height}, {"time_ms", rounded(milliseconds)},
           {"steps_ms", steps},     {"checkerboards", checkerboards},
           {"targets", targets}};
 }

@@ -9,8 +9,15 @@
 
 namespace outdoor_omr
 {
-/** One image's markers as the JSON object that omr_detect writes on a line of its own (README, "Command line"). */
-nlohmann::ordered_json toJson(const std::string& image, const cv::Size& size, const Markers& markers);
+/**
+ * One image's markers as the JSON object that omr_detect writes on a line of its own (README, "Command line").
+ *
+ * @param image        the file's name as the caller gave it.
+ * @param size         of the image [px].
+ * @param milliseconds that the detection took, without reading the file.
+ */
+nlohmann::ordered_json toJson(const std::string& image, const cv::Size& size, double milliseconds,
+                              const Markers& markers);
 
 }  // namespace outdoor_omr
 

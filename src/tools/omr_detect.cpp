@@ -1,15 +1,31 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "markers_json.h"
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/overlay.h"
 #include "outdoor_omr/settings.h"
+#include "parameter_table.h"
 
 namespace
 {
+enum ExitCode
+{
+  SUCCESS = 0,
+  IMAGE_FAILED = 1,  ///< at least one image could not be read or searched; the others were
+  FAILED = 2         ///< wrong arguments, no device, no output
+};
+
 struct Options
 {
   std::string config;
@@ -18,7 +34,15 @@ struct Options
   std::string device = "auto";
   std::string overlay;
   std::string json;
+  bool list_devices = false;
+  bool list_parameters = false;
   std::vector<std::string> images;
+
+  /** Whether the result goes to standard output. */
+  bool printsToOutput() const
+  {
+    return json == "-" || (json.empty() && overlay.empty());
+  }
 };
 
 outdoor_omr::Settings readSettings(const Options& options)
@@ -44,60 +68,251 @@ outdoor_omr::Settings readSettings(const Options& options)
   return settings;
 }
 
-int run(const Options& options)
+/** The image, or std::invalid_argument with the reason. OpenCV turns it as its EXIF data ask. */
+cv::Mat readImage(const std::string& name)
 {
+  if (!std::filesystem::exists(name))
+  {
+    throw std::invalid_argument("there is no such file");
+  }
+  cv::Mat image;
+  try
+  {
+    image = cv::imread(name, cv::IMREAD_COLOR);
+  }
+  catch (const cv::Exception& error)
+  {
+    throw std::invalid_argument(error.err);
+  }
+  if (image.empty())
+  {
+    throw std::invalid_argument("not an image that can be read");
+  }
+  return image;
+}
+
+/** One file name an image, numbered where images of several folders have the same name. */
+std::vector<std::string> overlayNames(const std::vector<std::string>& images)
+{
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const std::string& image : images)
+  {
+    const std::string stem = std::filesystem::path(image).stem();
+    std::string name = stem;
+    for (int number = 2; !taken.insert(name).second; ++number)
+    {
+      name = stem + "-" + std::to_string(number);
+    }
+    names.push_back(name + ".png");
+  }
+  return names;
+}
+
+void createFolder(const std::string& name)
+{
+  std::error_code error;
+  std::filesystem::create_directories(name, error);
+  if (error)
+  {
+    throw std::runtime_error("cannot create the folder '" + name + "': " + error.message());
+  }
+}
+
+void writeOverlay(const std::string& file, const cv::Mat& picture)
+{
+  bool written = false;
+  try
+  {
+    written = cv::imwrite(file, picture);
+  }
+  catch (const cv::Exception&)
+  {
+  }
+  if (!written)
+  {
+    throw std::runtime_error("cannot write the overlay '" + file + "'");
+  }
+}
+
+std::ofstream openJson(const std::string& name)
+{
+  std::ofstream file(name);
+  if (!file)
+  {
+    throw std::runtime_error("cannot write '" + name + "'");
+  }
+  return file;
+}
+
+void writeJson(std::ostream& stream, const nlohmann::ordered_json& json)
+{
+  // A file name need not be UTF-8; JSON must be.
+  stream << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
+  if (!stream)
+  {
+    throw std::runtime_error("cannot write the JSON output; is the disk full?");
+  }
+}
+
+void printSummary(const std::string& name, double milliseconds, const outdoor_omr::Markers& markers)
+{
+  std::cout << std::fixed << std::setprecision(1) << name << ": " << markers.checkerboards.size() << " checkerboards, "
+            << markers.targets.size() << " targets, " << milliseconds << " ms\n";
+  for (const outdoor_omr::Checkerboard& board : markers.checkerboards)
+  {
+    const auto seen = std::count(board.inner_corners_seen.begin(), board.inner_corners_seen.end(), true);
+    std::cout << "  checkerboard " << (board.size_certain ? "" : ">= ") << board.rows << " x " << board.cols
+              << " squares, first corner (" << board.corners[0].x << ", " << board.corners[0].y << "), " << seen
+              << " of " << board.inner_corners.size() << " inner corners seen\n";
+  }
+  for (const outdoor_omr::Target& target : markers.targets)
+  {
+    std::cout << "  target " << target.colors << " at (" << target.center.x << ", " << target.center.y << ")\n";
+  }
+}
+
+/** Says on a terminal which image is at work; the line wipes itself out. */
+void showProgress(const Options& options, std::size_t index)
+{
+  const bool output_is_seen = options.printsToOutput() && isatty(STDOUT_FILENO) != 0;
+  if (isatty(STDERR_FILENO) == 0 || output_is_seen)
+  {
+    return;
+  }
+  std::cerr << "\r\033[K";
+  if (index < options.images.size())
+  {
+    std::cerr << index + 1 << "/" << options.images.size() << " " << options.images[index] << std::flush;
+  }
+}
+
+/** Reads one image, searches it and writes what was asked for; std::invalid_argument when the image is at fault. */
+void processImage(const Options& options, std::size_t index, const outdoor_omr::Settings& settings,
+                  outdoor_omr::Detector& detector, const std::string& overlay_name, std::ostream& json)
+{
+  using Clock = std::chrono::steady_clock;
+  const std::string& name = options.images[index];
+  const cv::Mat image = readImage(name);
+  const Clock::time_point start = Clock::now();
+  const outdoor_omr::Markers markers = detector.detect(image, settings);
+  const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  if (!options.overlay.empty())
+  {
+    writeOverlay(options.overlay + "/" + overlay_name, outdoor_omr::drawOverlay(image, markers, detector.regions()));
+  }
+  if (!options.json.empty())
+  {
+    writeJson(json, outdoor_omr::toJson(name, image.size(), milliseconds, markers));
+  }
+  else if (options.overlay.empty())
+  {
+    printSummary(name, milliseconds, markers);
+  }
+}
+
+ExitCode detectAll(const Options& options)
+{
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
   const outdoor_omr::Settings settings = readSettings(options);
   outdoor_omr::Detector detector(options.device);
   std::ofstream file;
   if (!options.json.empty() && options.json != "-")
   {
-    file.open(options.json);
+    file = openJson(options.json);
   }
-  std::ostream& json = options.json == "-" ? std::cout : file;
-  int failed = 0;
-  for (const std::string& name : options.images)
+  if (!options.overlay.empty())
   {
-    const cv::Mat image = cv::imread(name, cv::IMREAD_COLOR);
-    if (image.empty())
+    createFolder(options.overlay);
+  }
+  std::ostream& json = file.is_open() ? file : std::cout;
+  const std::vector<std::string> overlay_names = overlayNames(options.images);
+  ExitCode result = SUCCESS;
+  for (std::size_t i = 0; i < options.images.size(); ++i)
+  {
+    showProgress(options, i);
+    try
     {
-      std::cerr << "omr_detect: cannot read the image '" << name << "'\n";
-      ++failed;
-      continue;
+      processImage(options, i, settings, detector, overlay_names[i], json);
     }
-    const outdoor_omr::Markers markers = detector.detect(image, settings);
-    if (!options.json.empty())
+    catch (const std::invalid_argument& error)
     {
-      json << outdoor_omr::toJson(name, image.size(), markers).dump() << "\n";
-    }
-    if (!options.overlay.empty())
-    {
-      const std::string base = name.substr(name.find_last_of('/') + 1);
-      cv::imwrite(options.overlay + "/" + base + ".png", outdoor_omr::drawOverlay(image, markers, detector.regions()));
+      std::cerr << "omr_detect: " << options.images[i] << ": " << error.what() << std::endl;
+      result = IMAGE_FAILED;
     }
   }
-  return failed == 0 ? 0 : 1;
+  showProgress(options, options.images.size());
+  return result;
+}
+
+void listDevices()
+{
+  const std::vector<std::string> devices = outdoor_omr::FillPipeline::devices();
+  for (const std::string& device : devices)
+  {
+    std::cout << device << "\n";
+  }
+  if (devices.empty())
+  {
+    std::cout << "no OpenCL device; the plain C++ reference takes its place\n";
+  }
+}
+
+ExitCode run(const Options& options)
+{
+  if (options.list_devices)
+  {
+    listDevices();
+    return SUCCESS;
+  }
+  if (options.list_parameters)
+  {
+    std::cout << outdoor_omr::parameterTable();
+    return SUCCESS;
+  }
+  return detectAll(options);
+}
+int parseAndRun(int argc, char** argv)
+{
+  Options options;
+  CLI::App app("Finds checkerboards and targets of concentric colour rings in images.");
+  app.add_option("--config", options.config, "yaml file of parameters");
+  app.add_option("--filter", options.filter, "prefilter: none, gaussian or median");
+  app.add_option("--set", options.set, "name=value of one parameter; may be repeated")->allow_extra_args(false);
+  app.add_option("--device", options.device, "auto, gpu, cpu, reference or part of a device's name");
+  app.add_option("--overlay", options.overlay, "folder for pictures with the markers drawn");
+  app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
+  auto* devices = app.add_flag("--list-devices", options.list_devices, "names the OpenCL devices and ends");
+  auto* parameters = app.add_flag("--list-parameters", options.list_parameters, "prints all parameters and ends");
+  app.add_option("images", options.images, "image files");
+  app.footer("Exit code: 0; 1 when an image could not be read; 2 when nothing could be done.");
+  app.callback([&] {
+    if (options.images.empty() && devices->count() + parameters->count() == 0)
+    {
+      throw CLI::RequiredError("images");
+    }
+  });
+  try
+  {
+    app.parse(argc, argv);
+    return run(options);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? SUCCESS : FAILED;
+  }
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  Options options;
-  CLI::App app("Finds checkerboards and targets of concentric colour rings in images.");
-  app.add_option("--config", options.config, "yaml file of parameters");
-  app.add_option("--filter", options.filter, "none, gaussian or median");
-  app.add_option("--set", options.set, "name=value of one parameter; may be repeated")->allow_extra_args(false);
-  app.add_option("--device", options.device, "auto, gpu, cpu, reference or part of a device's name");
-  app.add_option("--overlay", options.overlay, "folder for pictures with the markers drawn");
-  app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
-  app.add_option("images", options.images, "image files")->required();
-  CLI11_PARSE(app, argc, argv);
   try
   {
-    return run(options);
+    return parseAndRun(argc, argv);
   }
   catch (const std::exception& error)
   {
     std::cerr << "omr_detect: " << error.what() << "\n";
-    return 2;
+    return FAILED;
   }
 }

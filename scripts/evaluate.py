@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""evaluate.py DATA_DIR [--sets doe,size] [--filters none,gaussian,median] [--output results/evaluate] [--set name=value]
+
+Runs omr_detect over every set of DATA_DIR, calls the scorer DATA_DIR/score.py and writes one report folder:
+  report.txt       the scorer's tables, one chapter a set
+  SET.FILTER.jsonl what was detected;  SET.json  what the scorer says of it
+  *.png            plots: recall over the size of squares and rings, over the hidden share, per lighting
+  failures.jpg     contact sheet of the pictures with misses or false detections
+The set "doe", the paper's experiment, runs with every prefilter of --filters (the paper's third algorithm factor), each
+other set with the default one.
+"""
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import contact_sheet
+import plots
+
+EXPERIMENT = 'doe'
+
+
+def find_sets(data, chosen):
+    """Names of the folders of `data` that hold a truth.json."""
+    found = sorted(name for name in os.listdir(data) if os.path.isfile(os.path.join(data, name, 'truth.json')))
+    unknown = sorted(set(chosen or []) - set(found))
+    if unknown:
+        sys.exit('evaluate: %s has no set %s; it has %s' % (data, ', '.join(unknown), ', '.join(found) or 'none'))
+    if not found:
+        sys.exit('evaluate: no folder of %s holds a truth.json' % data)
+    return [name for name in found if not chosen or name in chosen]
+
+
+def read_truth(folder):
+    with open(os.path.join(folder, 'truth.json')) as file:
+        return json.load(file)['images']
+
+
+def detect(folder, filter_name, settings, jsonl):
+    """Writes omr_detect's answer for every picture of the set; returns how many pictures there are."""
+    images = [os.path.join(folder, truth['image']) for truth in read_truth(folder)]
+    command = ['omr_detect', '--json', jsonl]
+    if filter_name != 'default':
+        command += ['--filter', filter_name]
+    for assignment in settings:
+        command += ['--set', assignment]
+    done = subprocess.run(command + images)
+    if done.returncode not in (0, 1):  # 1: a picture could not be read; the scorer counts it as undetected
+        sys.exit('evaluate: omr_detect failed on %s' % folder)
+    return len(images)
+
+
+def score(scorer, folder, detections, filters, result):
+    """Calls the scorer; returns its tables as text and its result."""
+    command = [sys.executable, scorer, folder, *detections, '--filters', ','.join(filters), '--json', result]
+    done = subprocess.run(command, stdout=subprocess.PIPE, universal_newlines=True)
+    if done.returncode != 0:
+        sys.exit('evaluate: %s failed on %s' % (scorer, folder))
+    with open(result) as file:
+        return done.stdout, json.load(file)
+
+
+def evaluate_set(arguments, name):
+    """Detects and scores one set; returns the scorer's tables as text and its result."""
+    folder = os.path.join(arguments.data, name)
+    filters = arguments.filters.split(',') if name == EXPERIMENT else ['default']
+    detections = [os.path.join(arguments.output, '%s.%s.jsonl' % (name, filter_name)) for filter_name in filters]
+    for filter_name, jsonl in zip(filters, detections):
+        count = detect(folder, filter_name, arguments.set, jsonl)
+        print('%s: %d pictures, filter %s' % (name, count, filter_name), flush=True)
+    return score(arguments.scorer, folder, detections, filters, os.path.join(arguments.output, name + '.json'))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('data')
+    parser.add_argument('--sets', type=lambda text: text.split(','), help='only these, separated by commas')
+    parser.add_argument('--filters', default='none,gaussian,median', help='prefilters for the set "doe"')
+    parser.add_argument('--set', action='append', default=[], metavar='NAME=VALUE', help='a parameter of omr_detect')
+    parser.add_argument('--output', default='results/evaluate')
+    arguments = parser.parse_args()
+    arguments.scorer = os.path.join(arguments.data, 'score.py')
+    if not os.path.isfile(arguments.scorer):
+        sys.exit('evaluate: the scorer %s is missing; it belongs beside the sets' % arguments.scorer)
+    if shutil.which('omr_detect') is None:
+        sys.exit('evaluate: omr_detect is not on PATH; call scripts/evaluate, which builds it')
+    sets = find_sets(arguments.data, arguments.sets)
+    os.makedirs(arguments.output, exist_ok=True)
+
+    pictures = []
+    with open(os.path.join(arguments.output, 'report.txt'), 'w') as report:
+        for name in sets:
+            text, scores = evaluate_set(arguments, name)
+            print(text, flush=True)
+            report.write(text)
+            pictures += scores['pictures']
+    plots.write_all(pictures, arguments.output)
+    shown = contact_sheet.write(pictures, arguments.data, arguments.output)
+    print('%d pictures with misses or false detections; the report is in %s' % (shown, arguments.output))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""The python scripts as the shell scripts call them. Usage: test_scripts.py PATH_OF_OMR_SHEET"""
+import json
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import cv2
+import numpy as np
+import rosbag
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), 'scripts')
+OMR_SHEET = None
+
+# Stands in for omr_detect: finds nothing but a checkerboard that is not there.
+FALSE_DETECTOR = """#!/usr/bin/env python3
+import json, sys
+with open(sys.argv[sys.argv.index('--json') + 1], 'w') as file:
+    for image in sys.argv:
+        if image.endswith('.png'):
+            board = {'rows': 5, 'cols': 7, 'corners': [[5, 5], [50, 5], [50, 40], [5, 40]]}
+            file.write(json.dumps({'image': image, 'checkerboards': [board], 'targets': []}) + '\\n')
+"""
+
+# Stands in for the scorer: one picture with a board found, one with a board missed and a false one.
+SCORER = """#!/usr/bin/env python3
+import json, sys
+board = {'care': True, 'min_square_px': 20, 'visible_fraction': 1}
+def picture(image, hit, filter_name):
+    return {'image': image, 'set': sys.argv[1].split('/')[-1], 'factors': {'filter': filter_name, 'lighting': 'hard'},
+            'checkerboard': {'tp': int(hit), 'fp': int(not hit), 'fn': int(not hit)},
+            'target': {'tp': 0, 'fp': 0, 'fn': 0}, 'boards': [dict(board, hit=hit)], 'targets': []}
+filters = sys.argv[sys.argv.index('--filters') + 1].split(',')
+pictures = [picture(image, image == 'a.png', name) for name in filters for image in ('a.png', 'b.png')]
+json.dump({'pictures': pictures}, open(sys.argv[sys.argv.index('--json') + 1], 'w'))
+print('scored %d files' % (sys.argv.index('--filters') - 2))
+"""
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def run_script(self, name, *arguments, path=None):
+        environment = dict(os.environ, PATH=(path + ':' if path else '') + os.environ['PATH'])
+        return subprocess.run([sys.executable, os.path.join(SCRIPTS, name), *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=120, env=environment)
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), 'w') as file:
+            file.write(text)
+        os.chmod(self.path(name), stat.S_IRWXU)
+
+    def test_scenes_show_the_sheet_from_several_sides(self):
+        sheet = self.path('sheet.png')
+        subprocess.check_call([OMR_SHEET, '--target', 'RWPGB', '--ring', '12', '--dpi', '60', sheet])
+        for folder in ('once', 'again'):
+            result = self.run_script('make_scene.py', sheet, self.path(folder), '--count', '3')
+            self.assertEqual(0, result.returncode, result.stderr)
+        scenes = [cv2.imread(self.path('once', name)).astype(int) for name in sorted(os.listdir(self.path('once')))]
+        self.assertEqual(3, len(scenes))
+        self.assertGreater(np.abs(scenes[0] - scenes[2]).mean(), 5)
+        for scene in scenes:  # blue, green and red of the rings
+            self.assertTrue(all((np.argmax(scene, axis=2)[np.ptp(scene, axis=2) > 60] == i).any() for i in range(3)))
+        self.assertTrue((scenes[1] == cv2.imread(self.path('again', 'scene01.png'))).all(), 'a scene is a lottery')
+
+    def make_bag(self):
+        images = []
+        for index in range(2):
+            images.append(self.path('%d.png' % index))
+            cv2.imwrite(images[-1], np.full((20, 30, 3), (10, 20 + index, 30), np.uint8))
+        result = self.run_script('make_bag.py', self.path('in.bag'), *images, '--topic', '/eye', '--rate', '4')
+        self.assertEqual(0, result.returncode, result.stderr)
+        return images
+
+    def test_a_bag_holds_images_and_their_names(self):
+        self.make_bag()
+        with rosbag.Bag(self.path('in.bag')) as bag:
+            images = [message for _, message, _ in bag.read_messages(['/eye'])]
+            names = [message.data for _, message, _ in bag.read_messages(['/eye_file'])]
+            self.assertGreater(bag.get_end_time() - images[-1].header.stamp.to_sec(), 2)
+        self.assertEqual([(30, 20, 90, 'bgr8', 'camera')] * 2,
+                         [(i.width, i.height, i.step, i.encoding, i.header.frame_id) for i in images])
+        self.assertEqual(bytes([10, 21, 30]) * 600, images[1].data)
+        self.assertEqual(0.25, (images[1].header.stamp - images[0].header.stamp).to_sec())
+        self.assertEqual(['0.png', '1.png', ''], names)
+
+    def test_an_image_without_an_answer_fails_the_report(self):
+        self.make_bag()
+        with rosbag.Bag(self.path('out.bag'), 'w'):
+            pass
+        result = self.run_script('report_bag.py', self.path('in.bag'), self.path('out.bag'), self.path('overlays'))
+        self.assertEqual(1, result.returncode)
+        self.assertIn('0.png: no answer', result.stdout)
+        self.assertIn('2 images, 0 answered', result.stdout)
+
+    def make_data(self):
+        board = {'rows': 5, 'cols': 7, 'outline': [[10, 10], [90, 10], [90, 60], [10, 60]]}
+        images = [{'image': name, 'checkerboards': [board], 'targets': []} for name in ('a.png', 'b.png')]
+        for name in ('doe', 'other'):
+            self.write('data/%s/truth.json' % name, json.dumps({'images': images}))
+            for image in images:
+                cv2.imwrite(self.path('data', name, image['image']), np.zeros((75, 100, 3), np.uint8))
+        self.write('bin/omr_detect', FALSE_DETECTOR)
+        self.write('data/score.py', SCORER)
+
+    def evaluate(self, *arguments):
+        return self.run_script('evaluate.py', self.path('data'), '--output', self.path('report'), *arguments,
+                               path=self.path('bin'))
+
+    def test_evaluate_writes_one_report_folder(self):
+        self.make_data()
+        result = self.evaluate()
+        self.assertEqual(0, result.returncode, result.stderr)
+        self.assertEqual({'doe.json', 'doe.none.jsonl', 'doe.gaussian.jsonl', 'doe.median.jsonl', 'other.json',
+                          'other.default.jsonl', 'report.txt', 'recall_size.png', 'recall_hidden.png', 'lighting.png',
+                          'failures.jpg'}, set(os.listdir(self.path('report'))))
+        with open(self.path('report', 'report.txt')) as file:
+            self.assertEqual('scored 3 files\nscored 1 files\n', file.read())
+        self.assertIn('4 pictures with misses or false detections', result.stdout)
+        sheet = cv2.imread(self.path('report', 'failures.jpg')).astype(int)
+        self.assertEqual((960, 1920), sheet.shape[:2])
+        # The missed board's outline is red, the false detection's yellow.
+        self.assertTrue(((sheet[..., 2] > 180) & (sheet[..., 1] < 80)).any())
+        self.assertTrue(((sheet[..., 2] > 180) & (sheet[..., 1] > 180) & (sheet[..., 0] < 80)).any())
+
+    def test_evaluate_chosen_sets_and_filters(self):
+        self.make_data()
+        self.assertEqual(0, self.evaluate('--sets', 'doe', '--filters', 'median').returncode)
+        self.assertTrue({'doe.json', 'doe.median.jsonl'} <= set(os.listdir(self.path('report'))))
+        self.assertFalse(os.path.exists(self.path('report', 'other.json')))
+        result = self.evaluate('--sets', 'dough')
+        self.assertEqual(1, result.returncode)
+        self.assertIn('it has doe, other', result.stderr)
+
+    def test_evaluate_without_a_scorer(self):
+        self.make_data()
+        os.remove(self.path('data', 'score.py'))
+        result = self.evaluate()
+        self.assertEqual(1, result.returncode)
+        self.assertIn('score.py is missing', result.stderr)
+
+
+if __name__ == '__main__':
+    OMR_SHEET = sys.argv.pop(1)
+    unittest.main()
