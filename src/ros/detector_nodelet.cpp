@@ -12,8 +12,8 @@
 #include "caught.h"
 #include "diagnostics.h"
 #include "image_input.h"
+#include "image_thread.h"
 #include "messages.h"
-#include "newest_image.h"
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/overlay.h"
 #include "parameters.h"
@@ -23,8 +23,8 @@ namespace outdoor_omr
 /**
  * Images in, markers out.
  *
- * The queue of getNodeHandle() is served by one thread at a time: it processes the images. What must not wait for an
- * image - receiving, sliders, diagnostics - uses the queue of getMTNodeHandle().
+ * Every callback is short and comes from the one queue of getNodeHandle(); the images are processed in a thread of
+ * their own, so that sliders, listeners and diagnostics never wait for one.
  */
 class DetectorNodelet : public nodelet::Nodelet
 {
@@ -50,9 +50,9 @@ class DetectorNodelet : public nodelet::Nodelet
     }
     detector_ = std::make_unique<Detector>(private_nh.param<std::string>("device", "auto"));
     NODELET_INFO("Detecting markers on: %s", detector_->pipeline().deviceName().c_str());
-    diagnostics_ =
-        std::make_unique<Diagnostics>(getMTNodeHandle(), getMTPrivateNodeHandle(), getName(), detector_->pipeline());
-    reconfigure_server_ = std::make_unique<ReconfigureServer>(reconfigure_mutex_, getMTPrivateNodeHandle());
+    diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_nh, getName(), detector_->pipeline());
+    image_thread_ = std::make_unique<ImageThread>([this](const auto& image) { process(image); });
+    reconfigure_server_ = std::make_unique<ReconfigureServer>(reconfigure_mutex_, private_nh);
     reconfigure_server_->setCallback([this](OmrConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
 
     // A listener may connect before advertise() has returned: connect() waits for this lock.
@@ -78,7 +78,7 @@ class DetectorNodelet : public nodelet::Nodelet
       else if (!images_)
       {
         const image_transport::TransportHints hints("raw", ros::TransportHints(), getPrivateNodeHandle());
-        images_ = image_transport::ImageTransport(getMTNodeHandle())
+        images_ = image_transport::ImageTransport(getNodeHandle())
                       .subscribe("image", 1, &DetectorNodelet::receive, this, hints);
         diagnostics_->subscribed(images_.getTopic());
       }
@@ -105,12 +105,10 @@ class DetectorNodelet : public nodelet::Nodelet
 
   void receive(const sensor_msgs::ImageConstPtr& image)
   {
-    if (newest_image_.put(image))
+    if (image_thread_->put(image))
     {
       diagnostics_->dropped();
-      return;
     }
-    callLater(getSTCallbackQueue(), [this] { process(newest_image_.take()); });
   }
 
   void process(const sensor_msgs::ImageConstPtr& image)
@@ -154,6 +152,8 @@ class DetectorNodelet : public nodelet::Nodelet
   }
 
   std::unique_ptr<Detector> detector_;
+  std::unique_ptr<Diagnostics> diagnostics_;
+
   std::mutex settings_mutex_;
   Settings settings_;
   OmrConfig config_;  // what settings_ came from
@@ -163,12 +163,11 @@ class DetectorNodelet : public nodelet::Nodelet
   ros::Publisher targets_;
   image_transport::Publisher overlay_;
 
-  std::unique_ptr<Diagnostics> diagnostics_;
+  // Destroyed from the last to the first: no more images, no more sliders, then the image at work is finished.
+  std::unique_ptr<ImageThread> image_thread_;
   boost::recursive_mutex reconfigure_mutex_;
   std::unique_ptr<ReconfigureServer> reconfigure_server_;
-
-  NewestImage newest_image_;
-  image_transport::Subscriber images_;  // the last member: shut down first
+  image_transport::Subscriber images_;
 };
 
 }  // namespace outdoor_omr

@@ -23,7 +23,7 @@ class Diagnostics
 {
  public:
   /**
-   * @param nh         of a queue that is served while an image is processed.
+   * @param nh         of the queue that reports.
    * @param private_nh of the same queue.
    * @param name       of the node.
    * @param pipeline   whose device is named.

@@ -38,10 +38,20 @@ std::string text(const XmlRpc::XmlRpcValue& value)
   }
 }
 
-bool isTunable(const std::string& name)
+std::vector<std::string> tunables()
 {
-  const std::vector<Parameter>& all = parameters();
-  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) { return parameter.name == name; });
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters())
+  {
+    names.push_back(parameter.name);
+  }
+  return names;
+}
+
+template <typename Names>
+bool contains(const Names& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 }  // namespace
 
@@ -69,24 +79,26 @@ std::vector<std::string> checkParameters(const ros::NodeHandle& private_nh)
   {
     return complaints;
   }
+  std::vector<std::string> known = tunables();
+  known.insert(known.end(), OTHER_PARAMETERS.begin(), OTHER_PARAMETERS.end());
   for (const auto& entry : found)
   {
     const std::string& name = entry.first;
-    if (std::find(OTHER_PARAMETERS.begin(), OTHER_PARAMETERS.end(), name) != OTHER_PARAMETERS.end())
+    if (!contains(known, name))
     {
-      continue;
+      complaints.push_back("there is no parameter '" + private_nh.resolveName(name) + "'; the nearest name is '" +
+                           nearestName(name, known) + "'");
     }
-    Settings settings;
-    const std::string complaint = caught([&] { setParameter(settings, name, text(entry.second)); });
-    if (complaint.empty())
+    else if (!contains(OTHER_PARAMETERS, name))
     {
-      continue;
-    }
-    complaints.push_back(private_nh.resolveName(name) + ": " + complaint);
-    if (isTunable(name))
-    {
-      complaints.back() += "; the default " + getParameter(Settings(), name) + " stays";
-      private_nh.deleteParam(name);
+      Settings settings;
+      const std::string error = caught([&] { setParameter(settings, name, text(entry.second)); });
+      if (!error.empty())
+      {
+        complaints.push_back(private_nh.resolveName(name) + ": " + error + "; the default " +
+                             getParameter(Settings(), name) + " stays");
+        private_nh.deleteParam(name);
+      }
     }
   }
   return complaints;

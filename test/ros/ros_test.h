@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_TEST_ROS_TEST_H
 #define OUTDOOR_OMR_TEST_ROS_TEST_H
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
@@ -89,6 +90,32 @@ inline sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const ros::Time& st
   message->encoding = sensor_msgs::image_encodings::BGR8;
   message->data.assign(image.datastart, image.dataend);
   return message;
+}
+
+/** The newest status that the detector has told; empty before the first. */
+inline diagnostic_msgs::DiagnosticStatus newestStatus(const Listener<diagnostic_msgs::DiagnosticArray>& diagnostics)
+{
+  diagnostic_msgs::DiagnosticStatus newest;
+  for (const auto& array : diagnostics.messages())
+  {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array->status)
+    {
+      newest = status.name == "detector: marker detection" ? status : newest;
+    }
+  }
+  return newest;
+}
+
+inline std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key)
+{
+  for (const diagnostic_msgs::KeyValue& value : status.values)
+  {
+    if (value.key == key)
+    {
+      return value.value;
+    }
+  }
+  return "";
 }
 
 }  // namespace ros_test

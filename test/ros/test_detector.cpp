@@ -1,10 +1,7 @@
 // The detector from outside, as its users see it: one source, run against the node and against the nodelet.
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <topic_tools/shape_shifter.h>
-
-#include <boost/optional.hpp>
 
 #include "message_types.h"
 #include "ros_test.h"
@@ -14,6 +11,8 @@ using diagnostic_msgs::DiagnosticStatus;
 using outdoor_omr_msgs::CheckerboardArray;
 using outdoor_omr_msgs::TargetArray;
 using ros_test::Listener;
+using ros_test::newestStatus;
+using ros_test::valueOf;
 using ros_test::waitFor;
 using sensor_msgs::Image;
 
@@ -53,31 +52,6 @@ void expectSameHeader(const Image& image, const Message& message)
   EXPECT_EQ(image.height, message.height);
 }
 
-/** The detector's newest status, if there is one. */
-boost::optional<DiagnosticStatus> newestStatus(const Listener<DiagnosticArray>& diagnostics)
-{
-  boost::optional<DiagnosticStatus> newest;
-  for (const auto& array : diagnostics.messages())
-  {
-    for (const DiagnosticStatus& status : array->status)
-    {
-      newest = status.name == "detector: marker detection" ? status : newest;
-    }
-  }
-  return newest;
-}
-
-std::string valueOf(const DiagnosticStatus& status, const std::string& key)
-{
-  for (const diagnostic_msgs::KeyValue& value : status.values)
-  {
-    if (value.key == key)
-    {
-      return value.value;
-    }
-  }
-  return "no value '" + key + "'";
-}
 }  // namespace
 
 TEST(Detector, publishesOneMessageForEveryImageWithItsHeader)
@@ -133,7 +107,7 @@ TEST(Detector, keepsWorkingWhenOneOfTwoListenersLeaves)
 TEST(Detector, tellsHowItFares)
 {
   Listener<DiagnosticArray> diagnostics("/diagnostics");
-  const auto status = [&] { return newestStatus(diagnostics).value_or(DiagnosticStatus()); };
+  const auto status = [&] { return newestStatus(diagnostics); };
   ASSERT_TRUE(waitFor([&] { return status().message == "Idle: nobody listens."; })) << status().message;
   EXPECT_FALSE(status().hardware_id.empty());
   EXPECT_EQ(status().hardware_id, valueOf(status(), "Device"));

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
 #include "outdoor_omr/settings.h"
 #include "parameters.h"
+#include "sliders.h"
 
 using outdoor_omr::OmrConfig;
 using outdoor_omr::Parameter;
@@ -14,50 +14,10 @@ using outdoor_omr::Settings;
 
 namespace
 {
-/** A value other than the default, as text; every tunable has one. */
-std::string otherValue(const Parameter& parameter)
-{
-  const std::string value = outdoor_omr::getParameter(Settings(), parameter.name);
-  if (parameter.type == "bool")
-  {
-    return value == "true" ? "false" : "true";
-  }
-  if (parameter.type == "choice")
-  {
-    return parameter.choices.front() == value ? parameter.choices.back() : parameter.choices.front();
-  }
-  std::ostringstream bound;
-  bound << std::setprecision(10) << (std::stod(value) == parameter.max ? parameter.min : parameter.max);
-  return bound.str();
-}
-
 /** What dynamic_reconfigure does with a request for one slider. */
 OmrConfig move(const std::string& name, const std::string& value)
 {
-  dynamic_reconfigure::Config request;
-  for (const Parameter& parameter : outdoor_omr::parameters())
-  {
-    if (parameter.name != name)
-    {
-      continue;
-    }
-    if (parameter.type == "bool")
-    {
-      dynamic_reconfigure::ConfigTools::appendParameter(request, name, value == "true");
-    }
-    else if (parameter.type == "int")
-    {
-      dynamic_reconfigure::ConfigTools::appendParameter(request, name, std::stoi(value));
-    }
-    else if (parameter.type == "double")
-    {
-      dynamic_reconfigure::ConfigTools::appendParameter(request, name, std::stod(value));
-    }
-    else
-    {
-      dynamic_reconfigure::ConfigTools::appendParameter(request, name, value);
-    }
-  }
+  dynamic_reconfigure::Config request = ros_test::requestFor(name, value);
   OmrConfig config = OmrConfig::__getDefault__();
   config.__fromMessage__(request);
   return config;
@@ -123,8 +83,8 @@ TEST(Parameters, everySliderMovesItsTunableAndNoOther)
   for (const Parameter& moved : outdoor_omr::parameters())
   {
     Settings expected;
-    outdoor_omr::setParameter(expected, moved.name, otherValue(moved));
-    const Settings settings = outdoor_omr::toSettings(move(moved.name, otherValue(moved)));
+    outdoor_omr::setParameter(expected, moved.name, ros_test::otherValue(moved));
+    const Settings settings = outdoor_omr::toSettings(move(moved.name, ros_test::otherValue(moved)));
     for (const Parameter& parameter : outdoor_omr::parameters())
     {
       EXPECT_EQ(outdoor_omr::getParameter(expected, parameter.name),
@@ -138,12 +98,10 @@ TEST(Parameters, slidersHaveTheBoundsGroupsAndWordsOfTheList)
 {
   const auto& descriptions = OmrConfig::__getParamDescriptions__();
   ASSERT_EQ(outdoor_omr::parameters().size(), descriptions.size());
-  OmrConfig high = OmrConfig::__getMax__();
-  OmrConfig low = OmrConfig::__getMin__();
-  dynamic_reconfigure::Config high_values;
-  dynamic_reconfigure::Config low_values;
-  high.__toMessage__(high_values);
-  low.__toMessage__(low_values);
+  dynamic_reconfigure::Config high;
+  dynamic_reconfigure::Config low;
+  OmrConfig::__getMax__().__toMessage__(high);
+  OmrConfig::__getMin__().__toMessage__(low);
   for (const Parameter& parameter : outdoor_omr::parameters())
   {
     const auto slider = std::find_if(descriptions.begin(), descriptions.end(),
@@ -155,19 +113,10 @@ TEST(Parameters, slidersHaveTheBoundsGroupsAndWordsOfTheList)
     {
       EXPECT_NE(std::string::npos, (*slider)->edit_method.find("'" + choice + "'")) << parameter.name;
     }
-    int integer = 0;
-    double number = 0;
-    if (dynamic_reconfigure::ConfigTools::getParameter(high_values, parameter.name, integer))
+    if (parameter.type == "int" || parameter.type == "double")
     {
-      EXPECT_EQ(parameter.max, integer) << parameter.name;
-      dynamic_reconfigure::ConfigTools::getParameter(low_values, parameter.name, integer);
-      EXPECT_EQ(parameter.min, integer) << parameter.name;
-    }
-    if (dynamic_reconfigure::ConfigTools::getParameter(high_values, parameter.name, number))
-    {
-      EXPECT_EQ(parameter.max, number) << parameter.name;
-      dynamic_reconfigure::ConfigTools::getParameter(low_values, parameter.name, number);
-      EXPECT_EQ(parameter.min, number) << parameter.name;
+      EXPECT_EQ(parameter.max, std::stod(ros_test::valueIn(high, parameter.name))) << parameter.name;
+      EXPECT_EQ(parameter.min, std::stod(ros_test::valueIn(low, parameter.name))) << parameter.name;
     }
   }
 }
