@@ -78,6 +78,34 @@ inline cv::Mat scene(const cv::Size& size = {320, 240})
   return image;
 }
 
+inline void drawCheckerboard(cv::Mat& image, const cv::Point& corner, int rows, int cols, int square)
+{
+  for (int i = 0; i < rows * cols; ++i)
+  {
+    const cv::Rect box(corner + cv::Point(i % cols, i / cols) * square, cv::Size(square, square));
+    cv::rectangle(image, box, cv::Scalar::all((i % cols + i / cols) % 2 == 0 ? 20 : 235), cv::FILLED);
+  }
+}
+
+/** White paper with a large board of 6 x 9 squares, a faint small one of 5 x 7 and a target of five rings, slightly
+ * blurred and noisy as a camera sees them. */
+inline cv::Mat markerScene()
+{
+  cv::Mat image(480, 640, CV_8UC3, cv::Scalar::all(235));
+  drawCheckerboard(image, {40, 40}, 6, 9, 28);
+  drawCheckerboard(image, {420, 360}, 5, 7, 5);
+  const cv::Scalar colors[] = {{30, 30, 190}, {235, 235, 235}, {20, 20, 20}, {60, 150, 40}, {170, 60, 30}};
+  for (int ring = 0; ring < 5; ++ring)
+  {
+    cv::circle(image, {480, 180}, 100 - 20 * ring, colors[ring], cv::FILLED);
+  }
+  cv::GaussianBlur(image, image, cv::Size(), 0.7);
+  cv::Mat noise(image.size(), CV_16SC3);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 3);
+  cv::add(image, noise, image, cv::noArray(), CV_8U);
+  return image;
+}
+
 /** @param image CV_8UC3. @param stamp not zero. */
 inline sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const ros::Time& stamp)
 {
