@@ -56,6 +56,9 @@ struct Parameter
 /** All tunables in the order of settings.def. */
 const std::vector<Parameter>& parameters();
 
+/** The known name (at least one) that a mistyped name is nearest to: fewest letters inserted, deleted or replaced. */
+std::string nearestName(const std::string& name, const std::vector<std::string>& known);
+
 /**
  * Sets one tunable from text, as the command line and yaml files give it.
  *

@@ -102,10 +102,13 @@ const Parameter& find(const std::string& name)
   {
     return *known;
   }
-  const auto nearest = std::min_element(all.begin(), all.end(), [&](const Parameter& a, const Parameter& b) {
-    return editDistance(a.name, name) < editDistance(b.name, name);
-  });
-  throw std::invalid_argument("there is no parameter '" + name + "'; the nearest name is '" + nearest->name + "'");
+  std::vector<std::string> names;
+  for (const Parameter& parameter : all)
+  {
+    names.push_back(parameter.name);
+  }
+  throw std::invalid_argument("there is no parameter '" + name + "'; the nearest name is '" + nearestName(name, names) +
+                              "'");
 }
 
 int choiceIndex(const Parameter& parameter, const std::string& value)
@@ -164,6 +167,13 @@ const std::vector<Parameter>& parameters()
 #undef OMR_CHOICE
   };
   return PARAMETERS;
+}
+
+std::string nearestName(const std::string& name, const std::vector<std::string>& known)
+{
+  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return editDistance(a, name) < editDistance(b, name);
+  });
 }
 
 void setParameter(Settings& settings, const std::string& name, const std::string& value)

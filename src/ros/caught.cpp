@@ -1,0 +1,25 @@
+#include "caught.h"
+
+#include <exception>
+
+namespace outdoor_omr
+{
+std::string caught(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+    return "";
+  }
+  catch (const std::exception& error)
+  {
+    const std::string text = error.what();
+    return text.empty() ? "error without a text" : text;
+  }
+  catch (...)
+  {
+    return "unknown error";
+  }
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,118 @@
+#include "diagnostics.h"
+
+#include <ros/console.h>
+
+#include "caught.h"
+
+namespace outdoor_omr
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double REPORT_PERIOD = 1.0;  // [s], REP 107
+constexpr double PATIENCE = 5.0;       // [s] without an image before a warning: no camera runs at less than 0.2 Hz
+
+double secondsBetween(std::chrono::steady_clock::time_point start, std::chrono::steady_clock::time_point end)
+{
+  return std::chrono::duration<double>(end - start).count();
+}
+}  // namespace
+
+Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name,
+                         const FillPipeline& pipeline)
+    : device_(pipeline.deviceName()),
+      fallback_reason_(pipeline.fallbackReason()),
+      last_report_(Clock::now()),
+      updater_(nh, private_nh, name)
+{
+  updater_.setHardwareID(device_);
+  updater_.add("marker detection", this, &Diagnostics::report);
+  timer_ = nh.createWallTimer(ros::WallDuration(REPORT_PERIOD), [this](const ros::WallTimerEvent& /*event*/) {
+    const std::string error = caught([this] { updater_.force_update(); });
+    ROS_ERROR_COND(!error.empty(), "diagnostics: %s", error.c_str());
+  });
+}
+
+void Diagnostics::subscribed(const std::string& topic)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  topic_ = topic;
+  last_image_ = Clock::now();
+}
+
+void Diagnostics::dropped()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++dropped_;
+}
+
+void Diagnostics::processed(const std::vector<StepTime>& times)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++processed_;
+  times_ = times;
+  last_image_ = Clock::now();
+}
+
+void Diagnostics::refused(const std::string& reason)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++refused_;
+  refusal_ = reason;
+  last_image_ = Clock::now();
+}
+
+void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  rate_ = static_cast<double>(processed_ - processed_reported_) / secondsBetween(last_report_, now);
+  summarize(status);
+  last_report_ = now;
+  processed_reported_ = processed_;
+  refused_reported_ = refused_;
+
+  status.add("Device", device_);
+  status.add("Fallback reason", fallback_reason_);
+  status.add("Image topic", topic_);
+  status.add("Images processed", processed_);
+  status.add("Images dropped", dropped_);
+  status.add("Images refused", refused_);
+  status.add("Last refusal", refusal_);
+  status.addf("Images per second", "%.1f", rate_);
+  double total = 0;
+  for (const StepTime& time : times_)
+  {
+    status.addf("Time of " + time.step + " [ms]", "%.2f", time.milliseconds);
+    total += time.milliseconds;
+  }
+  status.addf("Time of all steps [ms]", "%.2f", total);
+}
+
+void Diagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const
+{
+  const double silence = secondsBetween(last_image_, Clock::now());
+  if (!topic_.empty() && silence > PATIENCE)
+  {
+    status.summaryf(DiagnosticStatus::WARN, "No image on %s for %.0f s.", topic_.c_str(), silence);
+  }
+  else if (refused_ > refused_reported_)
+  {
+    status.summaryf(DiagnosticStatus::WARN, "Images refused: %s.", refusal_.c_str());
+  }
+  else if (!fallback_reason_.empty())
+  {
+    status.summaryf(DiagnosticStatus::WARN, "Running without OpenCL: %s", fallback_reason_.c_str());
+  }
+  else if (topic_.empty())
+  {
+    status.summary(DiagnosticStatus::OK, "Idle: nobody listens.");
+  }
+  else
+  {
+    status.summaryf(DiagnosticStatus::OK, "%.1f images processed per second.", rate_);
+  }
+}
+
+}  // namespace outdoor_omr

@@ -1,0 +1,135 @@
+// Parameters of the running detector: sliders, words, parameters that are set before it starts.
+
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
+
+#include "nodelet_manager.h"
+#include "ros_test.h"
+#include "sliders.h"
+
+using outdoor_omr::Parameter;
+using outdoor_omr::Settings;
+using ros_test::Listener;
+using ros_test::NodeletManager;
+using ros_test::valueIn;
+using ros_test::waitFor;
+using rosgraph_msgs::Log;
+
+namespace
+{
+dynamic_reconfigure::Config set(const dynamic_reconfigure::Config& request)
+{
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config = request;
+  EXPECT_TRUE(ros::service::call("/detector/set_parameters", call));
+  return call.response.config;
+}
+
+dynamic_reconfigure::Config set(const std::string& name, const std::string& value)
+{
+  return set(ros_test::requestFor(name, value));
+}
+
+std::string current(const std::string& name)
+{
+  return valueIn(set(dynamic_reconfigure::Config()), name);
+}
+
+std::string defaultOf(const std::string& name)
+{
+  return outdoor_omr::getParameter(Settings(), name);
+}
+
+/** Whether somebody logged these words at this level. */
+bool logged(const Listener<Log>& log, const Log::_level_type& level, const std::string& words)
+{
+  for (const auto& line : log.messages())
+  {
+    if (line->level == level && line->msg.find(words) != std::string::npos)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** A manager with the detector in it, started without parameters of an earlier test. */
+class Reconfigure : public testing::Test
+{
+ protected:
+  Reconfigure()
+  {
+    // Words logged before the manager's connection stands are lost: wait until some have come.
+    EXPECT_TRUE(waitFor([&] {
+      return NodeletManager::load() && NodeletManager::unload() && logged(log_, Log::INFO, "Detecting markers on");
+    }));
+    ros::param::del("/detector");
+  }
+
+  NodeletManager manager_;
+  const Listener<Log> log_{"/rosout"};
+};
+}  // namespace
+
+TEST_F(Reconfigure, everySliderReadsBackWhatWasSet)
+{
+  ASSERT_TRUE(NodeletManager::load());
+  for (const Parameter& parameter : outdoor_omr::parameters())
+  {
+    EXPECT_EQ(defaultOf(parameter.name), current(parameter.name)) << parameter.name;
+    const std::string value = ros_test::otherValue(parameter);
+    EXPECT_EQ(value, valueIn(set(parameter.name, value), parameter.name)) << parameter.name;
+    EXPECT_EQ(value, current(parameter.name)) << parameter.name;
+    set(parameter.name, defaultOf(parameter.name));
+  }
+}
+
+TEST_F(Reconfigure, refusesWhatTheSettingsDoNotAdmit)
+{
+  ASSERT_TRUE(NodeletManager::load());
+  EXPECT_EQ("median", valueIn(set("filter", "median"), "filter"));
+  EXPECT_EQ("median", valueIn(set("filter", "gauss"), "filter"));
+  EXPECT_EQ("median", current("filter"));
+  EXPECT_TRUE(
+      waitFor([&] { return logged(log_, Log::ERROR, "'filter' is one of none, gaussian, median, not 'gauss'"); }));
+  EXPECT_EQ("3", valueIn(set("filter_size", "4"), "filter_size"));
+  EXPECT_TRUE(waitFor([&] { return logged(log_, Log::ERROR, "'filter_size' = 4 has no centre pixel"); }));
+}
+
+TEST_F(Reconfigure, usesGoodParametersAtTheStartAndNamesTheBadOnes)
+{
+  ros::param::set("/detector/sobel_threshold", 60);
+  ros::param::set("/detector/sobel_treshold", 70);
+  ros::param::set("/detector/devise", "gpu");
+  ros::param::set("/detector/filter", "gauss");
+  ros::param::set("/detector/filter_size", "wide");
+  ros::param::set("/detector/region_min_area", 0);
+  ros::param::set("/detector/region_max_share", std::vector<double>{0.5, 0.6});
+  ASSERT_TRUE(NodeletManager::load());
+  EXPECT_EQ("60", current("sobel_threshold"));
+  for (const std::string name : {"filter", "filter_size", "region_min_area", "region_max_share"})
+  {
+    EXPECT_EQ(defaultOf(name), current(name)) << name;
+  }
+  for (const std::string words : {"'/detector/sobel_treshold'; the nearest name is 'sobel_threshold'",
+                                  "'/detector/devise'; the nearest name is 'device'",
+                                  "'filter' is one of none, gaussian, median, not 'gauss'; the default gaussian stays",
+                                  "'filter_size' is a whole number, not 'wide'; the default 3 stays",
+                                  "'region_min_area' = 0 is out of bounds: 1 to 1000000 px; the default 4 stays",
+                                  "/detector/region_max_share: it is not a single value; the default 0.125 stays"})
+  {
+    EXPECT_TRUE(waitFor([&] { return logged(log_, Log::WARN, words); }, 5)) << words;
+  }
+  EXPECT_FALSE(logged(log_, Log::WARN, "'sobel_threshold' "));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_reconfigure");
+  ros::NodeHandle nh;
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
