@@ -12,6 +12,7 @@ import numpy as np
 
 WIDTH, HEIGHT = 1280, 960
 FOCAL_PX = 1400.
+GAMMA = 2.2  # light is added and shaded in linear intensity, and coded at the end
 
 
 def rotation(tilt, turn, roll):
@@ -32,13 +33,20 @@ def sheet_homography(sheet, pose, distance):
     return camera @ np.column_stack([pose[:, 0], pose[:, 1], [0, 0, distance]]) @ to_plane
 
 
+def print_reflectance(sheet):
+    """Reflectance of the printed sheet [0, 1]: ink gives back a little of every colour, two thirds of its own."""
+    asked = (sheet / np.float32(255)) ** GAMMA
+    own = (2 + asked.min(axis=2, keepdims=True)) / 3
+    return .05 + .8 * asked * own
+
+
 def background(random):
-    """Weathered concrete: noise of several sizes around a grey."""
-    picture = np.full((HEIGHT, WIDTH), 120, np.float32)
-    for cells, contrast in ((6, 22), (40, 10), (320, 7)):
+    """Reflectance of weathered concrete: noise of several sizes around a grey."""
+    picture = np.full((HEIGHT, WIDTH), .2, np.float32)
+    for cells, contrast in ((6, .06), (40, .03), (320, .02)):
         noise = random.normal(0, contrast, (cells * HEIGHT // WIDTH + 1, cells)).astype(np.float32)
         picture += cv2.resize(noise, (WIDTH, HEIGHT), interpolation=cv2.INTER_CUBIC)
-    return cv2.merge([picture * .95, picture, picture * 1.03])
+    return np.clip(cv2.merge([picture * .95, picture, picture * 1.03]), .02, 1)
 
 
 def sunlight(random):
@@ -49,7 +57,7 @@ def sunlight(random):
     offset = random.uniform(-.25, .25)
     shadow = (np.abs(along - offset) < .06).astype(np.float32)
     across = (np.cos(direction + .6) * (x - WIDTH / 2) + np.sin(direction + .6) * (y - HEIGHT / 2)) / WIDTH
-    return (1 + .4 * across) * (1 - .55 * cv2.GaussianBlur(shadow, (0, 0), 1.2))
+    return (1 + .5 * across) * (1 - .75 * cv2.GaussianBlur(shadow, (0, 0), 1.2))
 
 
 def make_scene(sheet, index, count):
@@ -58,12 +66,12 @@ def make_scene(sheet, index, count):
     pose = rotation(30 * np.sin(2 * np.pi * progress), 35 * np.cos(2 * np.pi * progress), 12 * progress - 6)
     homography = sheet_homography(sheet, pose, 1.5 + progress)
     size = (WIDTH, HEIGHT)
-    paper = cv2.warpPerspective(sheet, homography, size, flags=cv2.INTER_AREA).astype(np.float32)
+    paper = cv2.warpPerspective(print_reflectance(sheet), homography, size)
     mask = cv2.warpPerspective(np.ones(sheet.shape[:2], np.float32), homography, size)[..., None]
-    # Ink reflects a little of everything, and paper not all: 8 to 85 %.
-    picture = background(random) * (1 - mask) + (20 + paper * .77) * mask
-    picture = cv2.GaussianBlur(picture * sunlight(random)[..., None], (0, 0), .8)
-    return np.clip(picture + random.normal(0, 2.5, picture.shape), 0, 255).astype(np.uint8)
+    picture = background(random) * (1 - mask) + paper * mask
+    picture = cv2.GaussianBlur(.9 * picture * sunlight(random)[..., None], (0, 0), .8)
+    code = 255 * np.clip(picture, 0, 1) ** (1 / GAMMA)
+    return np.clip(code + random.normal(0, 2, code.shape), 0, 255).astype(np.uint8)
 
 
 def main():

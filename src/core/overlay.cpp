@@ -189,6 +189,14 @@ void drawCheckerboard(Canvas& canvas, const Checkerboard& board, const Color& co
   drawText(canvas, sizeText(board), cv::Point2d(top) - cv::Point2d(0, 6 * canvas.scale), color);
 }
 
+/** Where a target's label begins: above its outer ring, so that it hides neither the rings nor a neighbour. */
+cv::Point2d labelAnchor(const Target& target, double gap)
+{
+  const cv::Size2f outer = target.rings.empty() ? cv::Size2f() : target.rings.back().size;
+  const double reach = 0.5 * std::max(outer.width, outer.height);
+  return target.center - cv::Point2d(0.7 * reach, reach + gap);
+}
+
 void drawTarget(Canvas& canvas, const Target& target, std::size_t id)
 {
   for (const cv::RotatedRect& ring : target.rings)
@@ -198,8 +206,7 @@ void drawTarget(Canvas& canvas, const Target& target, std::size_t id)
   const double radius = 5 * canvas.scale;
   drawCircle(canvas, target.center, radius, BLACK, 3 * canvas.thickness);
   drawCircle(canvas, target.center, radius, YELLOW, canvas.thickness);
-  drawText(canvas, std::to_string(id) + ": " + target.colors, target.center + cv::Point2d(1.5 * radius, -radius),
-           YELLOW);
+  drawText(canvas, std::to_string(id) + ": " + target.colors, labelAnchor(target, radius), YELLOW);
 }
 
 void checkInput(const cv::Mat& bgr, const RegionMap& regions)
