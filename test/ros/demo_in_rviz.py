@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Replays a bag with demo.launch under a virtual display and looks for the overlay in a screenshot of rviz."""
+"""Replays a bag with demo.launch under a virtual display and looks for the painted regions in a screenshot of rviz."""
 
 import os
 import signal
@@ -16,15 +16,16 @@ import rospy
 from sensor_msgs.msg import Image
 
 PATIENCE = 60  # [s] for rviz to show the picture
-LEAST_PIXELS = 5000  # of each colour; rviz shows the disk with 38000 and the bar with 29000
 TOLERANCE = 8  # grey levels
-BACKGROUND, DISK, BAR = (160, 60, 40), (60, 40, 230), (40, 220, 60)  # B, G, R
+# Colours that only the overlay has, B, G, R, and the least number of their pixels.
+FIRST_REGION, FIRST_REGION_PIXELS = (255, 0, 0), 100000
+EDGES, EDGE_PIXELS = (0, 255, 255), 1000
 
 
 def scene():
-    image = numpy.full((480, 640, 3), BACKGROUND, numpy.uint8)
-    cv2.circle(image, (213, 240), 100, DISK, cv2.FILLED)
-    cv2.rectangle(image, (420, 60), (520, 300), BAR, cv2.FILLED)
+    image = numpy.full((480, 640, 3), (110, 130, 120), numpy.uint8)
+    cv2.circle(image, (213, 240), 100, (60, 40, 230), cv2.FILLED)
+    cv2.rectangle(image, (420, 60), (520, 300), (40, 220, 60), cv2.FILLED)
     return image
 
 
@@ -73,9 +74,9 @@ def wait_for_overlay(environment, launch):
     end = time.monotonic() + PATIENCE
     while True:
         picture = screenshot(environment)
-        counts = [count(picture, color) for color in (BACKGROUND, DISK, BAR)]
-        print("pixels of background, disk, bar:", counts, flush=True)
-        if min(counts) >= LEAST_PIXELS:
+        region, edges = count(picture, FIRST_REGION), count(picture, EDGES)
+        print("pixels of the first region: {}, of edges: {}".format(region, edges), flush=True)
+        if region >= FIRST_REGION_PIXELS and edges >= EDGE_PIXELS:
             return picture, True
         if time.monotonic() > end or launch.poll() is not None:
             return picture, False
@@ -96,12 +97,15 @@ def main():
     os.makedirs(folder, exist_ok=True)
     bag = os.path.join(folder, "demo.bag")
     write_bag(bag)
+    config = os.path.join(folder, "regions.yaml")
+    with open(config, "w", encoding="utf-8") as file:
+        file.write("overlay_regions: true\n")
     display, name = start_display()
     port = str(free_port())
     environment = dict(os.environ, DISPLAY=name, LIBGL_ALWAYS_SOFTWARE="1", ROS_MASTER_URI="http://127.0.0.1:" + port)
     with open(os.path.join(folder, "roslaunch.log"), "w", encoding="utf-8") as log:
         launch = subprocess.Popen(["roslaunch", "-p", port, "outdoor_omr", "demo.launch", "bag:=" + bag,
-                                   "image:=/camera/image", "loop:=true"], env=environment, stdout=log, stderr=log)
+                                   "image:=/camera/image", "loop:=true", "config:=" + config], env=environment, stdout=log, stderr=log)
         try:
             picture, shown = wait_for_overlay(environment, launch)
         finally:

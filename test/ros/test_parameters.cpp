@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,6 +27,7 @@ OmrConfig move(const std::string& name, const std::string& value)
 std::string bounds(const Parameter& parameter)
 {
   std::ostringstream text;
+  text << std::setprecision(10);
   if (parameter.type == "choice")
   {
     for (const std::string& choice : parameter.choices)

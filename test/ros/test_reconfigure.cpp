@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Log.h>
 
+#include <map>
+
+#include "message_types.h"
 #include "nodelet_manager.h"
 #include "ros_test.h"
 #include "sliders.h"
@@ -53,6 +56,81 @@ bool logged(const Listener<Log>& log, const Log::_level_type& level, const std::
   }
   return false;
 }
+
+/** How one slider is moved, and whether that must change what the detector publishes. */
+struct Move
+{
+  std::string value;
+  bool acts;
+  std::map<std::string, std::string> before;  ///< sliders that stand elsewhere than at their defaults
+};
+
+const std::map<std::string, std::string> PAINTED = {{"overlay_regions", "true"}};
+
+const std::map<std::string, Move> MOVES = {
+    {"filter", {"none", true, PAINTED}},
+    {"filter_size", {"5", true, PAINTED}},
+    {"sobel_threshold", {"300", true, PAINTED}},
+    {"fill_method", {"sweep", false, PAINTED}},  // two ways to the same labels
+    {"sweep_rounds", {"1", false, {{"overlay_regions", "true"}, {"fill_method", "sweep"}}}},
+    {"region_min_area", {"1000000", true, {}}},
+    {"region_max_share", {"0.0001", true, {}}},
+    {"detect_checkerboards", {"false", true, {}}},
+    {"checkerboard_second_look", {"false", true, {}}},
+    {"checkerboard_looks", {"100", true, {}}},
+    {"detect_targets", {"false", true, {}}},
+    {"target_min_rings", {"9", true, {}}},
+    {"overlay_regions", {"true", true, {}}},
+};
+
+/** Shows the detector one and the same picture and keeps what it publishes. */
+class Eye
+{
+ public:
+  bool open()
+  {
+    return waitFor([&] {
+      return camera_.getNumSubscribers() > 0 && checkerboards_.connected() && targets_.connected() &&
+             overlay_.connected();
+    });
+  }
+
+  /** @param values of the sliders that do not stand at their defaults. @return all that was published; empty: nothing.
+   */
+  std::string look(const std::map<std::string, std::string>& values)
+  {
+    for (const Parameter& parameter : outdoor_omr::parameters())
+    {
+      const auto value = values.find(parameter.name);
+      set(parameter.name, value == values.end() ? defaultOf(parameter.name) : value->second);
+    }
+    const std::size_t shots = overlay_.count() + 1;
+    camera_.publish(ros_test::toMessage(ros_test::markerScene(), ros::Time(1000)));
+    if (!waitFor(
+            [&] { return checkerboards_.count() == shots && targets_.count() == shots && overlay_.count() == shots; }))
+    {
+      return "";
+    }
+    std::ostringstream all;
+    for (const auto& board : checkerboards_.messages().back()->checkerboards)
+    {
+      all << board;
+    }
+    for (const auto& target : targets_.messages().back()->targets)
+    {
+      all << target;
+    }
+    const auto& pixels = overlay_.messages().back()->data;
+    all.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
+    return all.str();
+  }
+
+ private:
+  const ros::Publisher camera_ = ros::NodeHandle().advertise<sensor_msgs::Image>("image", 1);
+  const Listener<outdoor_omr_msgs::CheckerboardArray> checkerboards_{"detector/checkerboards"};
+  const Listener<outdoor_omr_msgs::TargetArray> targets_{"detector/targets"};
+  const Listener<sensor_msgs::Image> overlay_{"detector/overlay"};
+};
 
 /** A manager with the detector in it, started without parameters of an earlier test. */
 class Reconfigure : public testing::Test
@@ -122,6 +200,32 @@ TEST_F(Reconfigure, usesGoodParametersAtTheStartAndNamesTheBadOnes)
     EXPECT_TRUE(waitFor([&] { return logged(log_, Log::WARN, words); }, 5)) << words;
   }
   EXPECT_FALSE(logged(log_, Log::WARN, "'sobel_threshold' "));
+}
+
+TEST_F(Reconfigure, saysWhyItCannotStartAndLeavesTheManagerAlive)
+{
+  ros::param::set("/detector/device", "no such device");
+  EXPECT_FALSE(NodeletManager::load());
+  EXPECT_TRUE(waitFor([&] { return logged(log_, Log::FATAL, "no such device"); }, 5));
+  ros::param::del("/detector/device");
+  EXPECT_TRUE(NodeletManager::load());
+}
+
+TEST_F(Reconfigure, everySliderActsOnTheNextImage)
+{
+  ASSERT_TRUE(NodeletManager::load());
+  Eye eye;
+  ASSERT_TRUE(eye.open());
+  for (const Parameter& parameter : outdoor_omr::parameters())
+  {
+    const auto move = MOVES.find(parameter.name);
+    ASSERT_NE(MOVES.end(), move) << "no test moves the slider " << parameter.name;
+    std::map<std::string, std::string> values = move->second.before;
+    const std::string before = eye.look(values);
+    values[parameter.name] = move->second.value;
+    ASSERT_NE("", before);
+    EXPECT_EQ(move->second.acts, before != eye.look(values)) << parameter.name;
+  }
 }
 
 int main(int argc, char** argv)
