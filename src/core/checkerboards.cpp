@@ -27,9 +27,9 @@ constexpr float MAX_DOUBT = 2.3F;
 // Gratings and grids of vents alternate as well, but they have no border and blurred corners.
 constexpr float BORDERLESS_CORRELATION = 0.98F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
-constexpr float MAX_GROWN_DOUBT = 2;     // from 36 corners on
-constexpr int MIN_CORNERS = 6;          // within reach of one another, or it is no lattice
-constexpr float SMALL_SQUARE = 5;  // px; below it nearly all corners must be found
+constexpr float MAX_GROWN_DOUBT = 2;  // from 36 corners on
+constexpr int MIN_CORNERS = 6;        // within reach of one another, or it is no lattice
+constexpr float SMALL_SQUARE = 5;     // px; below it nearly all corners must be found
 constexpr float SMALL_SQUARE_FILL = 0.85F;
 constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
 constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
@@ -80,7 +80,8 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
-    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) ||
+        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
     {
       noteFailure(lattice, 1, map);
       return false;

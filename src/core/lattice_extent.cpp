@@ -223,7 +223,8 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   }
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
   const bool line_seen = found >= MIN_LINE_SHARE * static_cast<float>(lineLength(lattice, side));
-  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim : SideEvidence::none;
+  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim
+                                                                                           : SideEvidence::none;
 }
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */

@@ -10,11 +10,11 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MARGIN = 4;          // px at the border of the image without saddle points
-constexpr int MIN_SIDE = 16;       // px of an image that can hold a lattice
+constexpr int MARGIN = 4;     // px at the border of the image without saddle points
+constexpr int MIN_SIDE = 16;  // px of an image that can hold a lattice
 constexpr int LANES = 8;
 constexpr int MIN_RESPONSE = 32;  // 4 (grey levels / px^2)^2; with three times as much 3 of 96 degraded boards are lost
-constexpr int MIN_RANGE = 14;      // grey levels around a saddle point
+constexpr int MIN_RANGE = 14;     // grey levels around a saddle point
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
