@@ -149,6 +149,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     {
       return;
     }
+    const int looks = looker.looksLeft();
     if (!map.isOpen(seed.frame.node) || !growFromSeed(seed.frame, looker, lattice, map))
     {
       continue;
@@ -164,6 +165,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     Candidate candidate{lattice, sides, boardOutline(lattice)};
     map.close(candidate.outline);
+    looker.setLooksLeft(looks);  // only looks in vain count
     addCandidate(std::move(candidate), candidates);
   }
 }
@@ -188,14 +190,17 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
 {
   constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
-  CornerLooker looker(frame, settings.checkerboard_looks);
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
-  findBoards(pairNeighbours(frame, regions), looker, map, candidates);
+  const auto search = [&](const std::vector<Seed>& seeds) {
+    CornerLooker looker(frame, settings.checkerboard_looks);
+    findBoards(seeds, looker, map, candidates);
+  };
+  search(pairNeighbours(frame, regions));
   const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
   for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
   {
-    findBoards(groupSaddlePoints(frame, level, map), looker, map, candidates);
+    search(groupSaddlePoints(frame, level, map));
   }
   std::vector<Checkerboard> boards;
   for (Candidate& candidate : candidates)
