@@ -24,6 +24,7 @@ constexpr int MAX_SIDE = 20;
 constexpr float MIN_FILL = 0.35F;
 // Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
 constexpr float MAX_DOUBT = 2.3F;
+constexpr float MAX_BORDERED_DOUBT = 3.5F;  // with a border on all four sides, which clutter does not have
 // Gratings and grids of vents alternate as well, but they have no border and blurred corners.
 constexpr float BORDERLESS_CORRELATION = 0.98F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
@@ -100,10 +101,10 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const int longer = std::max(lattice.box.width, lattice.box.height);
   const Evidence evidence = latticeEvidence(lattice);
   const float height = squareHeight(lattice.seedFrame());
-  const bool has_border = std::count(sides.begin(), sides.end(), SideEvidence::border) > 0;
+  const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border);
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
-         evidence.doubt() <= MAX_DOUBT && (has_border || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
+         evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) && (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
          height >= MIN_SQUARE && (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
@@ -189,7 +190,7 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
 
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
 {
-  constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
+  constexpr int SADDLE_LEVELS = 3;  // the second one for blurred boards: degrade 87 -> 90 of 96
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
   const auto search = [&](const std::vector<Seed>& seeds) {
@@ -200,7 +201,8 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
   const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
   for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
   {
-    search(groupSaddlePoints(frame, level, map));
+    const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
+    search(groupSaddlePoints(frame, level, faint, map));
   }
   std::vector<Checkerboard> boards;
   for (Candidate& candidate : candidates)

@@ -9,7 +9,7 @@ namespace
 constexpr float LEVEL_SQUARE_HEIGHT = 24;    // px; above it a level of half the size shows the square as well
 constexpr float RAW_SQUARE_HEIGHT = 5;       // px; below it the 3x3 filter costs recall
 constexpr float MIN_SQUARE_HEIGHT = 1.5F;    // px; the pixel grid resolves no less
-constexpr float MIN_GAP = 5;                 // grey levels between the darkest light and the lightest dark quadrant
+constexpr float MIN_GAP = 3;                 // grey levels between the darkest light and the lightest dark quadrant
 constexpr float MIN_GAP_SHARE = 0.15F;       // of the contrast
 constexpr float MIN_CONTRAST_SHARE = 0.25F;  // of the neighbours' contrast; half of it is a shadow's edge
 constexpr float LOG_OFFSET = 12;  // grey levels; keeps the noise of the darkest pixels small in the logarithm
