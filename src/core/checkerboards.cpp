@@ -95,6 +95,14 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
   return true;
 }
 
+/** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
+bool mayBePart(const Lattice& lattice, CornerLooker& looker)
+{
+  return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
+         std::any_of(SIDES.begin(), SIDES.end(),
+                     [&](Side side) { return lookAtBorder(lattice, looker, side, 1).seen >= 2; });
+}
+
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
 {
   const int shorter = std::min(lattice.box.width, lattice.box.height);
@@ -155,6 +163,11 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     {
       continue;
     }
+    if (!mayBePart(lattice, looker))
+    {
+      noteFailure(lattice, 1, map);
+      continue;
+    }
     jumpGaps(lattice, looker);
     fillHoles(lattice, looker);
     dropOutliers(lattice);
@@ -190,7 +203,7 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
 
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
 {
-  constexpr int SADDLE_LEVELS = 3;  // the second one for blurred boards: degrade 87 -> 90 of 96
+  constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
   const auto search = [&](const std::vector<Seed>& seeds) {
