@@ -170,6 +170,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     jumpGaps(lattice, looker);
     fillHoles(lattice, looker);
+    splitAtBorders(lattice, looker);
     dropOutliers(lattice);
     const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
     if (!isBoard(lattice, sides))
