@@ -160,6 +160,34 @@ bool accepts(const CornerQuery& query, const Verdict& verdict)
          verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
 }
 
+/** Whether all quadrants but the dark one have one hue: a coloured thing over the rim is as light as the margin, but it
+ * is not the margin. */
+bool haveOneColor(const cv::Mat& bgr, const LocalFrame& frame, int dark)
+{
+  constexpr float OFFSET = 0.3F;         // squares
+  constexpr float MAX_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
+  cv::Vec3f least = cv::Vec3f::all(1);
+  cv::Vec3f most = cv::Vec3f::all(0);
+  for (int q = 0; q < QUADRANTS; ++q)
+  {
+    const cv::Point2f point = frame.at(OFFSET * QUADRANT_U[q], OFFSET * QUADRANT_V[q]);
+    const cv::Point pixel(cvRound(point.x), cvRound(point.y));
+    if (q == dark || !cv::Rect(cv::Point(), bgr.size()).contains(pixel))
+    {
+      continue;
+    }
+    const cv::Vec3f color = bgr.at<cv::Vec3b>(pixel);
+    const cv::Vec3f shares = color * (1 / std::max(1.F, color[0] + color[1] + color[2]));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      least[channel] = std::min(least[channel], shares[channel]);
+      most[channel] = std::max(most[channel], shares[channel]);
+    }
+  }
+  const cv::Vec3f spread = most - least;
+  return std::max({spread[0], spread[1], spread[2]}) < MAX_DIFFERENCE;
+}
+
 bool isInside(const cv::Mat& image, const cv::Point2f& point, float margin)
 {
   return point.x >= margin && point.y >= margin && point.x < image.cols - 1 - margin &&
@@ -408,7 +436,8 @@ RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dar
   pattern[dark] = -1;
   const float light = std::min({beside_a, beside_b, opposite});
   if (light - median[dark] > least_gap && bestCorrelation(ring, pattern) > MIN_CORRELATION &&
-      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]))
+      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]) &&
+      haveOneColor(frame_.bgr, predicted, dark))
   {
     return RimLook::outer_corner;
   }
