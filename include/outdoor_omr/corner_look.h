@@ -66,6 +66,10 @@ class CornerLooker
   {
     return budget_;
   }
+  void setLooksLeft(int looks)
+  {
+    budget_ = looks;
+  }
   const Frame& frame() const
   {
     return frame_;

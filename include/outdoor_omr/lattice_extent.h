@@ -27,6 +27,9 @@ struct BorderLine
 
   /** The board ends at this line. */
   bool ends() const;
+
+  /** So much speaks for it that nothing beyond it may be taken for the same board. */
+  bool mayEnd() const;
 };
 
 /**
@@ -39,6 +42,9 @@ BorderLine lookAtBorder(const Lattice& lattice, CornerLooker& looker, Side side,
 /** Finds corners beyond what hides a part of the board, up to three squares away; not across a border, where the next
  * board may begin. */
 void jumpGaps(Lattice& lattice, CornerLooker& looker);
+
+/** Takes back what lies beyond a border inside the lattice: another board in the same plane, found across its margin. */
+void splitAtBorders(Lattice& lattice, CornerLooker& looker);
 
 /** Takes back corners that a smooth surface through all of them does not admit, as the edge of a shadow or the next
  * object made them. */

@@ -13,20 +13,23 @@ namespace outdoor_omr
 /**
  * Saddle points of the grey values that look the same after a half turn, as the corner of four squares does.
  *
- * @param grey CV_8UC1.
- * @return     pixels, row by row; empty for an image under 16 px.
+ * @param grey      CV_8UC1.
+ * @param faint     whether points of a few grey levels count too.
+ * @param max_count the strongest are kept; bounds the time on noise.
+ * @return          pixels; none in an image under 16 px.
  */
-std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey);
+std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max_count);
 
 /**
  * Seeds for what regions do not give: squares under 6 px, whose edges fill them, and blurred or faint boards. Three
  * saddle points, one with two of its neighbours, make a frame when the squares between them alternate.
  *
  * @param level    of the pyramid; level 0 is read from the unfiltered image.
+ * @param faint    whether boards of a few grey levels are wanted as well, as haze leaves them.
  * @param open     where seeds are wanted.
  * @return         highest rank first.
  */
-std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, const SearchMap& open);
+std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, const SearchMap& open);
 
 }  // namespace outdoor_omr
 

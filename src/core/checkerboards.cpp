@@ -24,12 +24,13 @@ constexpr int MAX_SIDE = 20;
 constexpr float MIN_FILL = 0.35F;
 // Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
 constexpr float MAX_DOUBT = 2.3F;
+constexpr float MAX_BORDERED_DOUBT = 3.5F;  // with a border on all four sides, which clutter does not have
 // Gratings and grids of vents alternate as well, but they have no border and blurred corners.
 constexpr float BORDERLESS_CORRELATION = 0.98F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
-constexpr float MAX_GROWN_DOUBT = 2;     // from 36 corners on
-constexpr int MIN_CORNERS = 6;          // within reach of one another, or it is no lattice
-constexpr float SMALL_SQUARE = 5;  // px; below it nearly all corners must be found
+constexpr float MAX_GROWN_DOUBT = 2;  // from 36 corners on
+constexpr int MIN_CORNERS = 6;        // within reach of one another, or it is no lattice
+constexpr float SMALL_SQUARE = 5;     // px; below it nearly all corners must be found
 constexpr float SMALL_SQUARE_FILL = 0.85F;
 constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
 constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
@@ -80,7 +81,8 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
-    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) ||
+        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
     {
       noteFailure(lattice, 1, map);
       return false;
@@ -93,16 +95,24 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
   return true;
 }
 
+/** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
+bool mayBePart(const Lattice& lattice, CornerLooker& looker)
+{
+  return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
+         std::any_of(SIDES.begin(), SIDES.end(),
+                     [&](Side side) { return lookAtBorder(lattice, looker, side, 1).seen >= 2; });
+}
+
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
 {
   const int shorter = std::min(lattice.box.width, lattice.box.height);
   const int longer = std::max(lattice.box.width, lattice.box.height);
   const Evidence evidence = latticeEvidence(lattice);
   const float height = squareHeight(lattice.seedFrame());
-  const bool has_border = std::count(sides.begin(), sides.end(), SideEvidence::border) > 0;
+  const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border);
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
-         evidence.doubt() <= MAX_DOUBT && (has_border || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
+         evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) && (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
          height >= MIN_SQUARE && (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
@@ -148,12 +158,19 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     {
       return;
     }
+    const int looks = looker.looksLeft();
     if (!map.isOpen(seed.frame.node) || !growFromSeed(seed.frame, looker, lattice, map))
     {
       continue;
     }
+    if (!mayBePart(lattice, looker))
+    {
+      noteFailure(lattice, 1, map);
+      continue;
+    }
     jumpGaps(lattice, looker);
     fillHoles(lattice, looker);
+    splitAtBorders(lattice, looker);
     dropOutliers(lattice);
     const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
     if (!isBoard(lattice, sides))
@@ -163,6 +180,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     Candidate candidate{lattice, sides, boardOutline(lattice)};
     map.close(candidate.outline);
+    looker.setLooksLeft(looks);  // only looks in vain count
     addCandidate(std::move(candidate), candidates);
   }
 }
@@ -187,14 +205,18 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
 {
   constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
-  CornerLooker looker(frame, settings.checkerboard_looks);
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
-  findBoards(pairNeighbours(frame, regions), looker, map, candidates);
+  const auto search = [&](const std::vector<Seed>& seeds) {
+    CornerLooker looker(frame, settings.checkerboard_looks);
+    findBoards(seeds, looker, map, candidates);
+  };
+  search(pairNeighbours(frame, regions));
   const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
   for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
   {
-    findBoards(groupSaddlePoints(frame, level, map), looker, map, candidates);
+    const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
+    search(groupSaddlePoints(frame, level, faint, map));
   }
   std::vector<Checkerboard> boards;
   for (Candidate& candidate : candidates)

@@ -9,7 +9,7 @@ namespace
 constexpr float LEVEL_SQUARE_HEIGHT = 24;    // px; above it a level of half the size shows the square as well
 constexpr float RAW_SQUARE_HEIGHT = 5;       // px; below it the 3x3 filter costs recall
 constexpr float MIN_SQUARE_HEIGHT = 1.5F;    // px; the pixel grid resolves no less
-constexpr float MIN_GAP = 5;                 // grey levels between the darkest light and the lightest dark quadrant
+constexpr float MIN_GAP = 3;                 // grey levels between the darkest light and the lightest dark quadrant
 constexpr float MIN_GAP_SHARE = 0.15F;       // of the contrast
 constexpr float MIN_CONTRAST_SHARE = 0.25F;  // of the neighbours' contrast; half of it is a shadow's edge
 constexpr float LOG_OFFSET = 12;  // grey levels; keeps the noise of the darkest pixels small in the logarithm
@@ -158,6 +158,34 @@ bool accepts(const CornerQuery& query, const Verdict& verdict)
   return (query.sign == 0 || verdict.sign == query.sign) &&
          verdict.gap > std::max(MIN_GAP, MIN_GAP_SHARE * verdict.contrast) && verdict.correlation > query.correlation &&
          verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
+}
+
+/** Whether all quadrants but the dark one have one hue: a coloured thing over the rim is as light as the margin, but it
+ * is not the margin. */
+bool haveOneColor(const cv::Mat& bgr, const LocalFrame& frame, int dark)
+{
+  constexpr float OFFSET = 0.3F;         // squares
+  constexpr float MAX_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
+  cv::Vec3f least = cv::Vec3f::all(1);
+  cv::Vec3f most = cv::Vec3f::all(0);
+  for (int q = 0; q < QUADRANTS; ++q)
+  {
+    const cv::Point2f point = frame.at(OFFSET * QUADRANT_U[q], OFFSET * QUADRANT_V[q]);
+    const cv::Point pixel(cvRound(point.x), cvRound(point.y));
+    if (q == dark || !cv::Rect(cv::Point(), bgr.size()).contains(pixel))
+    {
+      continue;
+    }
+    const cv::Vec3f color = bgr.at<cv::Vec3b>(pixel);
+    const cv::Vec3f shares = color * (1 / std::max(1.F, color[0] + color[1] + color[2]));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      least[channel] = std::min(least[channel], shares[channel]);
+      most[channel] = std::max(most[channel], shares[channel]);
+    }
+  }
+  const cv::Vec3f spread = most - least;
+  return std::max({spread[0], spread[1], spread[2]}) < MAX_DIFFERENCE;
 }
 
 bool isInside(const cv::Mat& image, const cv::Point2f& point, float margin)
@@ -408,7 +436,8 @@ RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dar
   pattern[dark] = -1;
   const float light = std::min({beside_a, beside_b, opposite});
   if (light - median[dark] > least_gap && bestCorrelation(ring, pattern) > MIN_CORRELATION &&
-      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]))
+      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]) &&
+      haveOneColor(frame_.bgr, predicted, dark))
   {
     return RimLook::outer_corner;
   }

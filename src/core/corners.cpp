@@ -93,7 +93,7 @@ cv::Point2f refineCorner(const cv::Mat& grey, const LocalFrame& corner)
       }
     }
     const float determinant = xx * yy - xy * xy;
-    if (determinant < 1e-6F * (xx + yy) * (xx + yy))
+    if (determinant <= 1e-6F * (xx + yy) * (xx + yy))
     {
       return corner.node;
     }

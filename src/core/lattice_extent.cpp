@@ -67,6 +67,18 @@ bool isInPicture(const cv::Mat& image, const cv::Point2f& point, float margin)
          point.y < image.rows - 1 - margin;
 }
 
+int countOnLine(const Lattice& lattice, Side side, int line)
+{
+  const int start = lineStart(lattice, side);
+  int found = 0;
+  for (int t = start; t < start + lineLength(lattice, side); ++t)
+  {
+    const Node node = nodeOnLine(side, line, t);
+    found += lattice.found(node.row, node.col) ? 1 : 0;
+  }
+  return found;
+}
+
 /** Whether a corner of the outermost line would convince by itself: clear, where the others say, between four squares
  * whose centres alternate. */
 bool convinces(const Lattice& lattice, const CornerLooker& looker, int row, int col, bool check_squares)
@@ -99,6 +111,40 @@ bool convinces(const Lattice& lattice, const CornerLooker& looker, int row, int 
   const float gap = lattice.sign(row, col) > 0 ? std::min(first, third) - std::max(second, fourth)
                                                : std::min(second, fourth) - std::max(first, third);
   return gap >= MIN_CONTRAST_SHARE * node.contrast;
+}
+
+/** @param window of the predictions [nodes]. */
+BorderLine lookAtLine(const Lattice& lattice, CornerLooker& looker, Side side, int line, int window)
+{
+  BorderLine result;
+  const int start = lineStart(lattice, side);
+  const int end = start + lineLength(lattice, side);
+  const float contrast = lattice.medianContrast();
+  for (int t = start - 1; t <= end; ++t)
+  {
+    const Node node = nodeOnLine(side, line, t);
+    // The dark square inside the border is the one towards u and v with u * v = -sign.
+    const int in = inwards(side);
+    const int across = -lattice.sign(node.row, node.col) * in;
+    const bool is_corner_square = (t == start - 1 && across < 0) || (t == end && across > 0);
+    LocalFrame predicted;
+    if (is_corner_square || !predictNode(lattice, node.row, node.col, window, predicted))
+    {
+      continue;
+    }
+    if (!isInPicture(looker.frame().raw_grey, predicted.node, 2))
+    {
+      ++result.outside;
+      continue;
+    }
+    ++result.places;
+    const int dark_u = isRow(side) ? across : in;
+    const int dark_v = isRow(side) ? in : across;
+    const RimLook look = looker.lookAtRim(predicted, dark_u, dark_v, contrast);
+    result.seen += look == RimLook::outer_corner ? 1 : 0;
+    result.goes_on += look == RimLook::inner_corner ? 1 : 0;
+  }
+  return result;
 }
 
 /** What speaks for the outermost line of a side. */
@@ -197,18 +243,6 @@ void trim(Lattice& lattice, CornerLooker& looker)
   }
 }
 
-int countOnLine(const Lattice& lattice, Side side, int line)
-{
-  const int start = lineStart(lattice, side);
-  int found = 0;
-  for (int t = start; t < start + lineLength(lattice, side); ++t)
-  {
-    const Node node = nodeOnLine(side, line, t);
-    found += lattice.found(node.row, node.col) ? 1 : 0;
-  }
-  return found;
-}
-
 SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& border)
 {
   constexpr int MIN_BORDER = 2;  // outer corners, the two of one rim square; something else gave one at most
@@ -223,7 +257,8 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   }
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
   const bool line_seen = found >= MIN_LINE_SHARE * static_cast<float>(lineLength(lattice, side));
-  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim : SideEvidence::none;
+  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim
+                                                                                           : SideEvidence::none;
 }
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
@@ -286,6 +321,12 @@ bool isWithinReach(const Lattice& lattice, int row, int col)
 }
 }  // namespace
 
+bool BorderLine::mayEnd() const
+{
+  constexpr float MIN_SHARE = 0.35F;
+  return seen >= 3 && goes_on == 0 && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
+}
+
 bool BorderLine::ends() const
 {
   constexpr float MIN_SHARE = 0.5F;
@@ -294,36 +335,35 @@ bool BorderLine::ends() const
 
 BorderLine lookAtBorder(const Lattice& lattice, CornerLooker& looker, Side side, int distance)
 {
-  BorderLine result;
-  const int line = lineIndex(lattice, side, distance);
-  const int start = lineStart(lattice, side);
-  const int end = start + lineLength(lattice, side);
-  const float contrast = lattice.medianContrast();
-  for (int t = start - 1; t <= end; ++t)
+  return lookAtLine(lattice, looker, side, lineIndex(lattice, side, distance), WINDOW + distance);
+}
+
+void splitAtBorders(Lattice& lattice, CornerLooker& looker)
+{
+  for (const Side side : SIDES)
   {
-    const Node node = nodeOnLine(side, line, t);
-    // The dark square inside the border is the one towards u and v with u * v = -sign.
-    const int in = inwards(side);
-    const int across = -lattice.sign(node.row, node.col) * in;
-    const bool is_corner_square = (t == start - 1 && across < 0) || (t == end && across > 0);
-    LocalFrame predicted;
-    if (is_corner_square || !predictNode(lattice, node.row, node.col, WINDOW + distance, predicted))
+    // From the middle outwards: a line without inner corners that has a border's outer ones on the inner side.
+    const int last = lineIndex(lattice, side, 0);
+    for (int line = Lattice::SEED; (last - line) * inwards(side) < 0; line -= inwards(side))
     {
-      continue;
+      const BorderLine border = lookAtLine(lattice, looker, side, line, WINDOW + 1);
+      // The next board begins a line further out at least: both lines are without inner corners.
+      const int inner_corners =
+          std::max(countOnLine(lattice, side, line), countOnLine(lattice, side, line - inwards(side)));
+      if (3 * inner_corners > border.seen)
+      {
+        continue;
+      }
+      if (border.seen >= 0.6 * border.places || (border.mayEnd() && inner_corners == 0))
+      {
+        while (lineIndex(lattice, side, 0) != line + inwards(side))
+        {
+          dropLine(lattice, side);
+        }
+        break;
+      }
     }
-    if (!isInPicture(looker.frame().raw_grey, predicted.node, 2))
-    {
-      ++result.outside;
-      continue;
-    }
-    ++result.places;
-    const int dark_u = isRow(side) ? across : in;
-    const int dark_v = isRow(side) ? in : across;
-    const RimLook look = looker.lookAtRim(predicted, dark_u, dark_v, contrast);
-    result.seen += look == RimLook::outer_corner ? 1 : 0;
-    result.goes_on += look == RimLook::inner_corner ? 1 : 0;
   }
-  return result;
 }
 
 void jumpGaps(Lattice& lattice, CornerLooker& looker)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -10,11 +11,21 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MARGIN = 4;          // px at the border of the image without saddle points
-constexpr int MIN_SIDE = 16;       // px of an image that can hold a lattice
+constexpr int MAX_POINTS = 5000;   // the strongest; three boards of the largest size have 1200
+constexpr int MAX_FAINT_POINTS = 2000;
+constexpr int MARGIN = 4;     // px at the border of the image without saddle points
+constexpr int MIN_SIDE = 16;  // px of an image that can hold a lattice
 constexpr int LANES = 8;
-constexpr int MIN_RESPONSE = 32;  // 4 (grey levels / px^2)^2; with three times as much 3 of 96 degraded boards are lost
-constexpr int MIN_RANGE = 14;      // grey levels around a saddle point
+
+/** What a saddle point must have at least. */
+struct Threshold
+{
+  int response;   // 4 (grey levels / px^2)^2
+  int range;      // grey levels around the point
+  float between;  // grey levels between light and dark squares
+};
+constexpr Threshold CLEAR = {32, 14, 5};
+constexpr Threshold FAINT = {4, 6, 3};
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
@@ -46,9 +57,9 @@ void saddleResponse(const uchar* above, const uchar* here, const uchar* below, i
 
 /** Calls the action for every x with a response above the threshold. */
 template <typename Action>
-void forEachStrong(const std::int16_t* response, int width, const Action& action)
+void forEachStrong(const std::int16_t* response, int width, int least, const Action& action)
 {
-  const cv::v_int16x8 threshold = cv::v_setall_s16(MIN_RESPONSE);
+  const cv::v_int16x8 threshold = cv::v_setall_s16(static_cast<short>(least));
   for (int x = MARGIN; x < width - MARGIN; x += LANES)
   {
     const int end = std::min(x + LANES, width - MARGIN);
@@ -56,7 +67,7 @@ void forEachStrong(const std::int16_t* response, int width, const Action& action
     {
       for (int i = x; i < end; ++i)
       {
-        if (response[i] > MIN_RESPONSE)
+        if (response[i] > least)
         {
           action(i);
         }
@@ -73,7 +84,7 @@ bool isMaximum(const std::array<const std::int16_t*, 3>& rows, int x)
          value > rows[0][x + 1] && value >= rows[2][x - 1] && value >= rows[2][x] && value >= rows[2][x + 1];
 }
 
-bool isPointSymmetric(const cv::Mat& grey, int x, int y)
+bool isPointSymmetric(const cv::Mat& grey, int x, int y, int min_range)
 {
   constexpr std::array<int, 6> RING_X = {2, 2, 1, 0, -1, -2};
   constexpr std::array<int, 6> RING_Y = {0, 1, 2, 2, 2, 1};
@@ -91,7 +102,7 @@ bool isPointSymmetric(const cv::Mat& grey, int x, int y)
     sum += std::abs(a - b);
   }
   const auto range = static_cast<float>(most - least);
-  return range >= MIN_RANGE && static_cast<float>(largest) <= MAX_ASYMMETRY * range &&
+  return range >= static_cast<float>(min_range) && static_cast<float>(largest) <= MAX_ASYMMETRY * range &&
          static_cast<float>(sum) <= 2.2F * MAX_ASYMMETRY * range;
 }
 
@@ -196,11 +207,10 @@ float alternation(const cv::Mat& grey, const LocalFrame& frame)
 
 /** The first frame, nearest neighbours first, in which the squares alternate. */
 bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
-                         const std::vector<PointGrid::Neighbour>& neighbours, Seed& seed)
+                         const std::vector<PointGrid::Neighbour>& neighbours, float least_gap, Seed& seed)
 {
   constexpr float MIN_SINE = 0.4F;
   constexpr float MAX_STEP_RATIO = 2.5F;
-  constexpr float MIN_ALTERNATION = 5;  // grey levels
   for (std::size_t a = 0; a < neighbours.size(); ++a)
   {
     for (std::size_t b = a + 1; b < neighbours.size(); ++b)
@@ -217,7 +227,7 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
         std::swap(frame.u, frame.v);
       }
       const float gap = alternation(grey, frame);
-      if (gap >= MIN_ALTERNATION)
+      if (gap >= least_gap)
       {
         seed = {frame, static_cast<int>(gap)};
         return true;
@@ -228,9 +238,16 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
 }
 }  // namespace
 
-std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey)
+std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max_count)
 {
+  struct Point
+  {
+    std::int16_t response;
+    cv::Point place;
+  };
+  const Threshold& least = faint ? FAINT : CLEAR;
   std::vector<cv::Point> points;
+  std::vector<Point> found;
   if (grey.cols < MIN_SIDE || grey.rows < MIN_SIDE)
   {
     return points;
@@ -248,21 +265,33 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey)
     {
       continue;
     }
-    forEachStrong(rows[1], width, [&](int x) {
-      if (isMaximum({rows[0], rows[1], rows[2]}, x) && isPointSymmetric(smooth, x, y - 1))
+    forEachStrong(rows[1], width, least.response, [&](int x) {
+      if (isMaximum({rows[0], rows[1], rows[2]}, x) && isPointSymmetric(smooth, x, y - 1, least.range))
       {
-        points.emplace_back(x, y - 1);
+        found.push_back({rows[1][x], {x, y - 1}});
       }
     });
+  }
+  if (static_cast<int>(found.size()) > max_count)
+  {
+    std::nth_element(found.begin(), found.begin() + max_count, found.end(), [](const Point& a, const Point& b) {
+      return std::make_tuple(-a.response, a.place.y, a.place.x) < std::make_tuple(-b.response, b.place.y, b.place.x);
+    });
+    found.resize(max_count);
+  }
+  points.reserve(found.size());
+  for (const Point& point : found)
+  {
+    points.push_back(point.place);
   }
   return points;
 }
 
-std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, const SearchMap& open)
+std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, const SearchMap& open)
 {
   const cv::Mat& grey = level == 0 ? frame.raw_grey : frame.grey[level];
   const auto scale = static_cast<float>(1 << level);
-  const std::vector<cv::Point> points = findSaddlePoints(grey);
+  const std::vector<cv::Point> points = findSaddlePoints(grey, faint, faint ? MAX_FAINT_POINTS : MAX_POINTS);
   const PointGrid grid(points, grey.size());
   std::vector<Seed> seeds;
   std::vector<PointGrid::Neighbour> neighbours;
@@ -274,7 +303,7 @@ std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, const SearchM
     }
     grid.neighbours(point, neighbours);
     Seed seed;
-    if (frameFromNeighbours(grey, point, neighbours, seed))
+    if (frameFromNeighbours(grey, point, neighbours, (faint ? FAINT : CLEAR).between, seed))
     {
       seed.frame.node *= scale;
       seed.frame.u *= scale;

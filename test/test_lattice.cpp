@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "outdoor_omr/lattice.h"
+#include "outdoor_omr/lattice_extent.h"
+#include "outdoor_omr/lattice_model.h"
+#include "render.h"
+
+using outdoor_omr::CornerLook;
+using outdoor_omr::CornerLooker;
+using outdoor_omr::CornerQuery;
+using outdoor_omr::Frame;
+using outdoor_omr::Lattice;
+using outdoor_omr::LocalFrame;
+using outdoor_omr::SideEvidence;
+using outdoor_omr::test::Render;
+
+namespace
+{
+constexpr int BUDGET = 10000;
+
+LocalFrame frameAt(const cv::Matx33d& board, double col, double row)
+{
+  const cv::Point2f node = outdoor_omr::test::project(board, col, row);
+  const cv::Point2f right = outdoor_omr::test::project(board, col + 1, row);
+  const cv::Point2f below = outdoor_omr::test::project(board, col, row + 1);
+  return {node, right - node, below - node};
+}
+
+/** A lattice grown from one corner of the board. */
+Lattice grow(CornerLooker& looker, const LocalFrame& seed)
+{
+  Lattice lattice;
+  const CornerLook corner = looker.look(seed, CornerQuery());
+  EXPECT_TRUE(corner.found);
+  lattice.start(seed, corner);
+  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  return lattice;
+}
+
+/** Nodes at the positions that a function of column and row gives. */
+template <typename Position>
+Lattice latticeOf(int rows, int cols, const Position& position)
+{
+  Lattice lattice;
+  const LocalFrame seed{position(0, 0), position(1, 0) - position(0, 0), position(0, 1) - position(0, 0)};
+  CornerLook corner;
+  corner.found = true;
+  corner.sign = 1;
+  corner.contrast = 100;
+  corner.correlation = 1;
+  corner.position = seed.node;
+  lattice.start(seed, corner);
+  for (int i = 0; i < rows; ++i)
+  {
+    for (int j = 0; j < cols; ++j)
+    {
+      corner.position = position(j, i);
+      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
+    }
+  }
+  return lattice;
+}
+}  // namespace
+
+TEST(Lattice, growsToTheWholeBoardFromAnyCorner)
+{
+  const cv::Matx33d board = outdoor_omr::test::boardHomography(5, 7, {200, 150}, 25, 35, 40);
+  Render render({400, 300});
+  render.addBoard(5, 7, board);
+  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  for (const cv::Point& start : {cv::Point(1, 1), cv::Point(6, 4), cv::Point(3, 2)})
+  {
+    CornerLooker looker(frame, BUDGET);
+    Lattice lattice = grow(looker, frameAt(board, start.x, start.y));
+    const auto sides = settleExtent(lattice, looker);
+    EXPECT_EQ(24, lattice.count());
+    EXPECT_EQ(cv::Size(6, 4), lattice.box.size());
+    for (const SideEvidence side : sides)
+    {
+      EXPECT_EQ(SideEvidence::border, side);
+    }
+  }
+}
+
+TEST(Lattice, jumpsOverWhatHidesSquaresButNotOverTheMarginToTheNextBoard)
+{
+  const cv::Matx33d board(25, 0, 60, 0, 25, 60, 0, 0, 1);
+  Render render({700, 300});
+  render.addBoard(5, 9, board);
+  render.addPolygon({{160, 0}, {195, 0}, {195, 300}, {160, 300}}, cv::Scalar(60, 110, 90));
+  // The next board continues the lattice after a margin of two squares, alike in size and phase.
+  render.addBoard(5, 7, cv::Matx33d(25, 0, 60 + 11 * 25, 0, 25, 60, 0, 0, 1), false);
+  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  CornerLooker looker(frame, BUDGET);
+  Lattice lattice = grow(looker, frameAt(board, 2, 2));
+  const int before = lattice.count();
+  jumpGaps(lattice, looker);
+  EXPECT_GT(lattice.count(), before + 8);
+  settleExtent(lattice, looker);
+  EXPECT_EQ(cv::Size(8, 4), lattice.box.size());
+}
+
+TEST(Lattice, predictsAlongALineAndAcrossACurvedPlate)
+{
+  const auto curved = [](int col, int row) {
+    return cv::Point2f(static_cast<float>(100 + 80 * std::sin(0.15 * col)), static_cast<float>(100 + 20 * row));
+  };
+  const Lattice lattice = latticeOf(5, 5, curved);
+  LocalFrame predicted;
+  ASSERT_TRUE(predictNode(lattice, Lattice::SEED + 2, Lattice::SEED + 5, 3, predicted));
+  EXPECT_NEAR(0, cv::norm(predicted.node - curved(5, 2)), 1.0);  // of a step of 9 px
+  const Lattice line = latticeOf(1, 3, curved);
+  ASSERT_TRUE(predictNode(line, Lattice::SEED, Lattice::SEED + 3, 3, predicted));
+  EXPECT_NEAR(0, cv::norm(predicted.node - curved(3, 0)), 4.0);
+  EXPECT_FALSE(predictNode(line, Lattice::SEED, Lattice::SEED + 9, 3, predicted));  // nothing near
+}
+
+TEST(Lattice, unevennessIsOfClutterNotOfPerspectiveOrCurvature)
+{
+  const auto perspective = [](int col, int row) {
+    const float w = 1 + 0.05F * static_cast<float>(col);
+    return cv::Point2f(100 + 30 * static_cast<float>(col) / w, 100 + 30 * static_cast<float>(row) / w);
+  };
+  cv::RNG random(3);
+  const auto clutter = [&](int col, int row) {
+    return cv::Point2f(100 + 20 * static_cast<float>(col) + random.uniform(-4.F, 4.F),
+                       100 + 20 * static_cast<float>(row) + random.uniform(-4.F, 4.F));
+  };
+  EXPECT_LT(latticeEvidence(latticeOf(6, 6, perspective)).unevenness, 0.02);
+  EXPECT_GT(latticeEvidence(latticeOf(6, 6, clutter)).unevenness, 0.2);
+}
+
+TEST(Lattice, theModelTellsCornersThatDoNotFit)
+{
+  const auto flat = [](int col, int row) {
+    const cv::Point2f node(100 + 20 * static_cast<float>(col), 100 + 20 * static_cast<float>(row));
+    return col == 3 && row == 2 ? node + cv::Point2f(3, 0) : node;
+  };
+  Lattice lattice = latticeOf(6, 7, flat);
+  dropOutliers(lattice);
+  EXPECT_EQ(41, lattice.count());
+  EXPECT_FALSE(lattice.found(Lattice::SEED + 2, Lattice::SEED + 3));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
