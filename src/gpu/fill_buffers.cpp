@@ -36,8 +36,8 @@ void GrowingBuffer::reserve(const cl::Context& context, std::size_t count, std::
 void FillBuffers::reserve(const cl::Context& context, const cv::Size& size, const Strips& strips)
 {
   const std::size_t height = size.height;
-  const std::size_t words = height * ((size.width + 63) / 64);
-  const std::size_t all_runs = height * ((size.width + 1) / 2);
+  const std::size_t words = height * divideUp(size.width, 64);
+  const std::size_t all_runs = height * divideUp(size.width, 2);
   const std::size_t strip_count = strips.count(size.height);
   filtered.reserve(context, height * size.width, 3);
   mask.reserve(context, words, sizeof(cl_ulong));
