@@ -21,7 +21,7 @@ DeviceFill::DeviceFill(const Device& device, Geometry geometry)
       queue_(context_, device.device, CL_QUEUE_PROFILING_ENABLE),
       program_(context_, device.device, geometry == Geometry::strips ? 1 : GPU_LANES),
       geometry_(geometry),
-      shares_memory_(device.cpu),
+      shares_memory_(device.isCpu()),
       compute_units_(static_cast<int>(device.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()))
 {
   warmUp();

@@ -37,6 +37,8 @@ class DeviceFill
  public:
   /** Builds the kernels and runs each of them once. @throws DeviceError with the build log if they do not build. */
   DeviceFill(const Device& device, Geometry geometry);
+  DeviceFill(const DeviceFill&) = delete;
+  DeviceFill& operator=(const DeviceFill&) = delete;
 
   /** Hands an image (CV_8UC3, not empty) to the device, which reads it until finish(). */
   void loadImage(const cv::Mat& bgr);

@@ -165,41 +165,46 @@ std::vector<Picture> pictures(const std::vector<std::string>& files)
   }
   return all;
 }
+
+int run(int argc, char** argv)
+{
+  benchmark::Initialize(&argc, argv);
+  CLI::App app{"Times the fill pipeline and OpenCV's functions for the same job."};
+  std::string name = "auto";
+  std::vector<std::string> files;
+  app.add_option("--device", name, "OpenCL device: auto, gpu, cpu or a part of its name");
+  app.add_option("images", files, "image files (default: drawn scenes of several sizes)");
+  CLI11_PARSE(app, argc, argv);
+  const std::vector<outdoor_omr::Device> devices = outdoor_omr::selectDevices(name);
+  if (devices.empty())
+  {
+    throw outdoor_omr::DeviceError("no OpenCL device is present");
+  }
+  const auto pipeline = std::make_shared<FillPipeline>(name);
+  const auto fill = std::make_shared<DeviceFill>(
+      devices.front(), devices.front().isCpu() ? outdoor_omr::Geometry::strips : outdoor_omr::Geometry::words);
+  std::cout << "device: " << pipeline->deviceName() << "\n";
+  for (const Picture& picture : pictures(files))
+  {
+    addWhole(picture, pipeline, Settings());
+    addFilters(picture, fill);
+    addEdges(picture, fill, Settings().sobel_threshold);
+    addRegions(picture, fill, Settings());
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  benchmark::Initialize(&argc, argv);
-  CLI::App app{"Times the fill pipeline and OpenCV's functions for the same job."};
-  std::string device = "auto";
-  std::vector<std::string> files;
-  app.add_option("--device", device, "OpenCL device: auto, gpu, cpu or a part of its name");
-  app.add_option("images", files, "image files (default: drawn scenes of several sizes)");
-  CLI11_PARSE(app, argc, argv);
   try
   {
-    const std::vector<outdoor_omr::Device> devices = outdoor_omr::selectDevices(device);
-    if (devices.empty())
-    {
-      throw outdoor_omr::DeviceError("no OpenCL device is present");
-    }
-    const auto pipeline = std::make_shared<FillPipeline>(device);
-    const auto fill = std::make_shared<DeviceFill>(
-        devices.front(), devices.front().cpu ? outdoor_omr::Geometry::strips : outdoor_omr::Geometry::words);
-    std::cout << "device: " << pipeline->deviceName() << "\n";
-    for (const Picture& picture : pictures(files))
-    {
-      addWhole(picture, pipeline, Settings());
-      addFilters(picture, fill);
-      addEdges(picture, fill, Settings().sobel_threshold);
-      addRegions(picture, fill, Settings());
-    }
-    benchmark::RunSpecifiedBenchmarks();
+    return run(argc, argv);
   }
   catch (const std::exception& error)
   {
     std::cerr << "omr_benchmark: " << error.what() << "\n";
-    return 1;
+    return 2;
   }
-  return 0;
 }
