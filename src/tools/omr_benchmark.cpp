@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -87,7 +88,7 @@ void addRegions(const Picture& picture, const std::shared_ptr<DeviceFill>& fill,
   const cv::Mat edges = outdoor_omr::edgeMask(picture.bgr, settings.sobel_threshold);
   const cv::Mat open = edges == 0;
   const auto label = [=](FillMethod method, cv::Mat& labels) {
-    fill->labelRegions(method, settings.sweep_rounds);
+    fill->labelRegions(method, std::numeric_limits<int>::max());  // sweeps: until they settle
     fill->readLabels(labels);
   };
   const auto prepared = [=](const std::function<void()>& action) {
