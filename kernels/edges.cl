@@ -14,21 +14,16 @@ typedef struct
 } SobelRow;
 
 // PoCL turns abs() on vectors into scalar code; operators take 0.4 of its time.
-inline short16 magnitude(short16 value)
+INLINE short16 magnitude(short16 value)
 {
   const short16 sign = value >> (short16)15;
   return (value ^ sign) - sign;
 }
 
-/**
- * @param row   first byte of the image row
- * @param x     first of 16 pixels
- */
-inline SobelRow sobelRow(global const uchar* row, int x, int width)
+/** @param inner whether the 16 pixels from x on have neighbours on both sides: a constant, so that no branch is left. */
+INLINE SobelRow sobelRow(global const uchar* row, int x, int width, bool inner)
 {
-  SobelRow result;
   uchar bytes[54];
-  const bool inner = x > 0 && x + 16 < width;
   if (!inner)
   {
     for (int i = 0; i < 18; ++i)
@@ -39,23 +34,14 @@ inline SobelRow sobelRow(global const uchar* row, int x, int width)
       bytes[3 * i + 2] = row[from + 2];
     }
   }
+  SobelRow result;
 #pragma unroll
   for (int k = 0; k < 3; ++k)
   {
-    short16 left, centre, right;
-    if (inner)
-    {
-      global const uchar* at = row + 3 * x + 16 * k;
-      left = convert_short16(vload16(0, at - 3));
-      centre = convert_short16(vload16(0, at));
-      right = convert_short16(vload16(0, at + 3));
-    }
-    else
-    {
-      left = convert_short16(vload16(0, bytes + 16 * k));
-      centre = convert_short16(vload16(0, bytes + 16 * k + 3));
-      right = convert_short16(vload16(0, bytes + 16 * k + 6));
-    }
+    global const uchar* at = row + 3 * x + 16 * k;
+    const short16 left = convert_short16(inner ? vload16(0, at - 3) : vload16(0, bytes + 16 * k));
+    const short16 centre = convert_short16(inner ? vload16(0, at) : vload16(0, bytes + 16 * k + 3));
+    const short16 right = convert_short16(inner ? vload16(0, at + 3) : vload16(0, bytes + 16 * k + 6));
     result.difference[k] = right - left;
     result.sum[k] = left + centre + centre + right;
   }
@@ -63,7 +49,7 @@ inline SobelRow sobelRow(global const uchar* row, int x, int width)
 }
 
 /** 16 region bits from 48 byte flags (-1 = edge) in the order B G R B G R ... */
-inline ulong regionBits(char16 p, char16 q, char16 r)
+INLINE ulong regionBits(char16 p, char16 q, char16 r)
 {
   const char16 blue = (char16)(p.s0369, p.scf, q.s258b, q.se, r.s147a, r.sd);
   const char16 green = (char16)(p.s147a, p.sd, q.s0369, q.scf, r.s258b, r.se);
@@ -77,44 +63,53 @@ inline ulong regionBits(char16 p, char16 q, char16 r)
   return bits.x | (bits.y << 8);
 }
 
+/** Slides down 16 columns from x on and adds their region bits to the words of the rows top .. bottom - 1. */
+INLINE void edgeColumns(global const uchar* image, long step, int width, int height, int x, int top, int bottom,
+                        short16 limit, bool inner, ulong* word)
+{
+  SobelRow above = sobelRow(image + max(top - 1, 0) * step, x, width, inner);
+  SobelRow row = sobelRow(image + top * step, x, width, inner);
+  for (int y = top; y < bottom; ++y)
+  {
+    const SobelRow below = sobelRow(image + min(y + 1, height - 1) * step, x, width, inner);
+    char16 edge[3];
+#pragma unroll
+    for (int k = 0; k < 3; ++k)
+    {
+      const short16 gx = above.difference[k] + row.difference[k] + row.difference[k] + below.difference[k];
+      const short16 gy = below.sum[k] - above.sum[k];
+      edge[k] = convert_char16(magnitude(gx) + magnitude(gy) > limit);
+    }
+    word[y - top] |= regionBits(edge[0], edge[1], edge[2]) << (x & 63);
+    above = row;
+    row = below;
+  }
+}
+
 /** CPU: one group = 64 pixels x EDGE_ROWS rows; group (w, block of rows). */
 kernel GROUP void edgesStrip(global const uchar* restrict image, long step, int width, int height, int threshold,
                              global ulong* restrict mask)
 {
-  const int words = wordsOf(width);
   const int w = get_group_id(0);
   const int top = (int)get_group_id(1) * EDGE_ROWS;
   const int bottom = min(height, top + EDGE_ROWS);
   const short16 limit = (short16)(short)threshold;
-  ulong word[EDGE_ROWS];
-  for (int i = 0; i < EDGE_ROWS; ++i)
-  {
-    word[i] = 0;
-  }
+  ulong word[EDGE_ROWS] = {0};
   for (int x = 64 * w; x < min(width, 64 * w + 64); x += 16)
   {
-    SobelRow above = sobelRow(image + max(top - 1, 0) * step, x, width);
-    SobelRow row = sobelRow(image + top * step, x, width);
-    for (int y = top; y < bottom; ++y)
+    if (x > 0 && x + 16 < width)
     {
-      const SobelRow below = sobelRow(image + min(y + 1, height - 1) * step, x, width);
-      char16 edge[3];
-#pragma unroll
-      for (int k = 0; k < 3; ++k)
-      {
-        const short16 gx = above.difference[k] + row.difference[k] + row.difference[k] + below.difference[k];
-        const short16 gy = below.sum[k] - above.sum[k];
-        edge[k] = convert_char16(magnitude(gx) + magnitude(gy) > limit);
-      }
-      word[y - top] |= regionBits(edge[0], edge[1], edge[2]) << (x & 63);
-      above = row;
-      row = below;
+      edgeColumns(image, step, width, height, x, top, bottom, limit, true, word);
+    }
+    else
+    {
+      edgeColumns(image, step, width, height, x, top, bottom, limit, false, word);
     }
   }
   const ulong inside = width - 64 * w >= 64 ? ~0UL : (1UL << (width - 64 * w)) - 1;
   for (int y = top; y < bottom; ++y)
   {
-    mask[(size_t)y * words + w] = word[y - top] & inside;
+    mask[(size_t)y * wordsOf(width) + w] = word[y - top] & inside;
   }
 }
 

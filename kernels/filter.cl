@@ -7,13 +7,13 @@
 #define PIECE 1536
 
 /** Byte index that stands for one left or right of the row: the same channel of the border pixel. */
-inline int replicated(int byte, int bytes)
+INLINE int replicated(int byte, int bytes)
 {
   return byte < 0 ? (byte + 6) % 3 : byte >= bytes ? bytes - 3 + byte % 3 : byte;
 }
 
 /** Row y of the image; beyond the border the first or last row. */
-inline global const uchar* rowAt(global const uchar* image, long step, int height, int y)
+INLINE global const uchar* rowAt(global const uchar* image, long step, int height, int y)
 {
   return image + clamp(y, 0, height - 1) * step;
 }
@@ -70,53 +70,72 @@ inline global const uchar* rowAt(global const uchar* image, long step, int heigh
 GAUSSIAN(gaussian3, 1, ROWS3, COLUMN3, ROW3)
 GAUSSIAN(gaussian5, 2, ROWS5, COLUMN5, ROW5)
 
-inline void order(uchar* low, uchar* high)
-{
-  const uchar a = *low;
-  const uchar b = *high;
-  *low = a < b ? a : b;
-  *high = a < b ? b : a;
-}
+// The median by exchanges only, written out on scalars: the loop over a row then becomes vector min and max (private
+// arrays and functions keep it scalar, which takes a hundred times as long).
+#define ORDER(a, b)                    \
+  {                                    \
+    const uchar smaller = a < b ? a : b; \
+    b = a < b ? b : a;                 \
+    a = smaller;                       \
+  }
+#define SORT5(a, b, c, d, e)                             \
+  ORDER(a, b) ORDER(d, e) ORDER(c, e) ORDER(c, d)        \
+  ORDER(b, e) ORDER(a, d) ORDER(a, c) ORDER(b, d) ORDER(b, c)
 
-/** Moves the smallest of count values to the front and the largest to the end. */
-inline void separateExtremes(uchar* values, int count)
-{
-#pragma unroll
-  for (int i = 0; i < count / 2; ++i)
-  {
-    order(&values[i], &values[count - 1 - i]);
-  }
-#pragma unroll
-  for (int i = 1; i < (count + 1) / 2; ++i)
-  {
-    order(&values[0], &values[i]);
-  }
-#pragma unroll
-  for (int i = count / 2; i < count - 1; ++i)
-  {
-    order(&values[i], &values[count - 1]);
-  }
-}
+// Forgetful selection: among any size / 2 + 2 of the values the smallest and the largest are not the median; drop both,
+// take one more in, until one is left. EXTREMESn moves them to v0 and to the last of n.
+#define EXTREMES8                                                  \
+  ORDER(v0, v7) ORDER(v1, v6) ORDER(v2, v5) ORDER(v3, v4)          \
+  ORDER(v0, v1) ORDER(v0, v2) ORDER(v0, v3) ORDER(v4, v7) ORDER(v5, v7) ORDER(v6, v7)
+#define EXTREMES7                                                  \
+  ORDER(v0, v6) ORDER(v1, v5) ORDER(v2, v4)                        \
+  ORDER(v0, v1) ORDER(v0, v2) ORDER(v0, v3) ORDER(v3, v6) ORDER(v4, v6) ORDER(v5, v6)
+#define EXTREMES6                                                  \
+  ORDER(v0, v5) ORDER(v1, v4) ORDER(v2, v3)                        \
+  ORDER(v0, v1) ORDER(v0, v2) ORDER(v3, v5) ORDER(v4, v5)
+#define EXTREMES5 ORDER(v0, v4) ORDER(v1, v3) ORDER(v0, v1) ORDER(v0, v2) ORDER(v2, v4) ORDER(v3, v4)
+#define EXTREMES4 ORDER(v0, v3) ORDER(v1, v2) ORDER(v0, v1) ORDER(v2, v3)
+#define EXTREMES3 ORDER(v0, v2) ORDER(v0, v1) ORDER(v1, v2)
 
-/**
- * Median of 9 or 25 values by forgetful selection: among any size / 2 + 2 of them the smallest and the largest are not
- * the median; drop both, take one more in, until one is left. No branches: the loop over a row becomes vector min and max.
- */
-inline uchar medianOf(uchar* values, const int size)
-{
-  const int kept = size / 2 + 2;
-#pragma unroll
-  for (int count = kept; count > 3; --count)
-  {
-    separateExtremes(values, count);
-    values[0] = values[kept + (kept - count)];
+#define MEDIAN3(ll, l, x, r, rr)                                   \
+  {                                                                \
+    uchar v0 = b[l], v1 = b[x], v2 = b[r];                         \
+    uchar v3 = c[l], v4 = c[x], v5 = c[r];                         \
+    EXTREMES6 v0 = d[l];                                           \
+    EXTREMES5 v0 = d[x];                                           \
+    EXTREMES4 v0 = d[r];                                           \
+    EXTREMES3 out[x] = v1;                                         \
   }
-  separateExtremes(values, 3);
-  return values[1];
-}
+
+// With columns and then rows of the window in order, 6 of the 25 values are too small and 6 too large to be the median.
+#define MEDIAN5(ll, l, x, r, rr)                                            \
+  {                                                                         \
+    uchar a0 = a[ll], a1 = a[l], a2 = a[x], a3 = a[r], a4 = a[rr];          \
+    uchar b0 = b[ll], b1 = b[l], b2 = b[x], b3 = b[r], b4 = b[rr];          \
+    uchar c0 = c[ll], c1 = c[l], c2 = c[x], c3 = c[r], c4 = c[rr];          \
+    uchar d0 = d[ll], d1 = d[l], d2 = d[x], d3 = d[r], d4 = d[rr];          \
+    uchar e0 = e[ll], e1 = e[l], e2 = e[x], e3 = e[r], e4 = e[rr];          \
+    SORT5(a0, b0, c0, d0, e0)                                               \
+    SORT5(a1, b1, c1, d1, e1)                                               \
+    SORT5(a2, b2, c2, d2, e2)                                               \
+    SORT5(a3, b3, c3, d3, e3)                                               \
+    SORT5(a4, b4, c4, d4, e4)                                               \
+    SORT5(a0, a1, a2, a3, a4)                                               \
+    SORT5(b0, b1, b2, b3, b4)                                               \
+    SORT5(c0, c1, c2, c3, c4)                                               \
+    SORT5(d0, d1, d2, d3, d4)                                               \
+    SORT5(e0, e1, e2, e3, e4)                                               \
+    uchar v0 = a3, v1 = a4, v2 = b2, v3 = b3, v4 = b4, v5 = c1, v6 = c2, v7 = c3; \
+    EXTREMES8 v0 = d0;                                                      \
+    EXTREMES7 v0 = d1;                                                      \
+    EXTREMES6 v0 = d2;                                                      \
+    EXTREMES5 v0 = e0;                                                      \
+    EXTREMES4 v0 = e1;                                                      \
+    EXTREMES3 out[x] = v1;                                                  \
+  }
 
 /** Median filter; bytes first .. last - 1 need no replicated columns. */
-#define MEDIAN(name, radius, size, ROWS, WINDOW)                                                                   \
+#define MEDIAN(name, radius, ROWS, MEDIAN_AT)                                                                \
   kernel GROUP void name(global const uchar* restrict image, long step, int width, int height,               \
                          global uchar* restrict filtered)                                                    \
   {                                                                                                          \
@@ -128,24 +147,15 @@ inline uchar medianOf(uchar* values, const int size)
     global uchar* restrict out = filtered + (size_t)y * bytes;                                               \
     for (int x = first + (int)get_local_id(0); x < last; x += LANES)                                         \
     {                                                                                                        \
-      uchar values[size] = WINDOW(x - 6, x - 3, x, x + 3, x + 6);                                            \
-      out[x] = medianOf(values, size);                                                                       \
+      MEDIAN_AT(x - 6, x - 3, x, x + 3, x + 6)                                                               \
     }                                                                                                        \
     for (int i = get_local_id(0); i < first + bytes - last; i += LANES)                                      \
     {                                                                                                        \
       const int x = i < first ? i : last + i - first;                                                        \
-      uchar values[size] = WINDOW(replicated(x - 6, bytes), replicated(x - 3, bytes), x,                     \
-                                  replicated(x + 3, bytes), replicated(x + 6, bytes));                       \
-      out[x] = medianOf(values, size);                                                                       \
+      MEDIAN_AT(replicated(x - 6, bytes), replicated(x - 3, bytes), x, replicated(x + 3, bytes),             \
+                replicated(x + 6, bytes))                                                                    \
     }                                                                                                        \
   }
 
-#define WINDOW3(ll, l, x, r, rr) {b[l], b[x], b[r], c[l], c[x], c[r], d[l], d[x], d[r]}
-#define WINDOW5(ll, l, x, r, rr)                                                                             \
-  {                                                                                                          \
-    a[ll], a[l], a[x], a[r], a[rr], b[ll], b[l], b[x], b[r], b[rr], c[ll], c[l], c[x], c[r], c[rr], d[ll],   \
-        d[l], d[x], d[r], d[rr], e[ll], e[l], e[x], e[r], e[rr]                                              \
-  }
-
-MEDIAN(median3, 1, 9, ROWS3, WINDOW3)
-MEDIAN(median5, 2, 25, ROWS5, WINDOW5)
+MEDIAN(median3, 1, ROWS3, MEDIAN3)
+MEDIAN(median5, 2, ROWS5, MEDIAN5)

@@ -10,16 +10,19 @@
 #define LANES 64
 #endif
 
+/** Functions are inlined always: a call in a row loop keeps PoCL from vectorising it. */
+#define INLINE static inline __attribute__((always_inline))
+
 #define GROUP __attribute__((reqd_work_group_size(LANES, 1, 1)))
 
 /** Words of 64 pixels in a row of the region mask. */
-inline int wordsOf(int width)
+INLINE int wordsOf(int width)
 {
   return (width + 63) / 64;
 }
 
 /** Largest number of runs in a row: they are at least one pixel apart. */
-inline int runsOf(int width)
+INLINE int runsOf(int width)
 {
   return (width + 1) / 2;
 }

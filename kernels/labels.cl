@@ -3,7 +3,7 @@
 #include "mask.cl"
 
 /** Writes value, value + slope, ... to pixels x .. end - 1; may overshoot within the row, which is written left to right. */
-inline void fillPixels(global int* row, int width, int x, int end, int value, int slope)
+INLINE void fillPixels(global int* row, int width, int x, int end, int value, int slope)
 {
   int16 values = (int16)value + (int16)slope * (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   for (; x < end && x <= width - 16; x += 16)

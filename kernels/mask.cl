@@ -6,19 +6,19 @@
 
 #include "geometry.cl"
 
-inline int lowestBit(ulong bits)
+INLINE int lowestBit(ulong bits)
 {
   return (int)popcount((bits & -bits) - 1);
 }
 
 /** The bits of row & other shifted so that each one meets its left neighbour. */
-inline ulong leftOf(ulong word, ulong word_before)
+INLINE ulong leftOf(ulong word, ulong word_before)
 {
   return (word << 1) | (word_before >> 63);
 }
 
 /** Pixels of word w where a run of the row starts. */
-inline ulong runStarts(global const ulong* row, int w)
+INLINE ulong runStarts(global const ulong* row, int w)
 {
   return row[w] & ~leftOf(row[w], w > 0 ? row[w - 1] : 0);
 }
@@ -27,14 +27,14 @@ inline ulong runStarts(global const ulong* row, int w)
  * First pixels of word w where a run of the row touches a run of the row above: one bit for each pair of runs that
  * overlap, which makes the union of two rows a walk over these bits.
  */
-inline ulong contacts(global const ulong* row, global const ulong* above, int w)
+INLINE ulong contacts(global const ulong* row, global const ulong* above, int w)
 {
   const ulong both = row[w] & above[w];
   return both & ~leftOf(both, w > 0 ? row[w - 1] & above[w - 1] : 0);
 }
 
 /** Region pixels of word w with an edge pixel among their four neighbours; the image border is no edge. */
-inline ulong besideEdge(global const ulong* mask, int width, int height, int y, int w)
+INLINE ulong besideEdge(global const ulong* mask, int width, int height, int y, int w)
 {
   const int words = wordsOf(width);
   global const ulong* row = mask + (size_t)y * words;

@@ -3,6 +3,8 @@
 #ifndef OUTDOOR_OMR_RECORD_CL
 #define OUTDOOR_OMR_RECORD_CL
 
+#include "geometry.cl"
+
 typedef struct
 {
   ulong x, y, xx, xy, yy;
@@ -24,14 +26,14 @@ typedef struct
   uint changed;   // set by a round of sweeps that changed a label
 } Counters;
 
-inline RegionSums emptyRecord(int label)
+INLINE RegionSums emptyRecord(int label)
 {
   const RegionSums record = {0, 0, 0, 0, 0, 0, 0, 0, 0, label, 0, 0, INT_MAX, INT_MAX, -1, -1, 0};
   return record;
 }
 
 /** Atomic 64-bit addition in two halves with carry: OpenCL 1.2 promises 32-bit atomics only (little-endian device). */
-inline void add64(volatile global ulong* sum, ulong value)
+INLINE void add64(volatile global ulong* sum, ulong value)
 {
   volatile global uint* halves = (volatile global uint*)sum;
   const uint low = (uint)value;
@@ -44,7 +46,7 @@ inline void add64(volatile global ulong* sum, ulong value)
 }
 
 /** Widens a bounding box; reads first, since most calls change nothing and the atomics of a large region collide. */
-inline void widen(volatile global RegionSums* record, int min_x, int min_y, int max_x, int max_y)
+INLINE void widen(volatile global RegionSums* record, int min_x, int min_y, int max_x, int max_y)
 {
   if (min_x < record->min_x)
   {
@@ -65,13 +67,13 @@ inline void widen(volatile global RegionSums* record, int min_x, int min_y, int 
 }
 
 /** Sum of the whole numbers start .. end - 1. */
-inline ulong sumOf(uint start, uint end)
+INLINE ulong sumOf(uint start, uint end)
 {
   return (ulong)(end - start) * (start + end - 1) / 2;
 }
 
 /** Sum of the squares of 0 .. end - 1. */
-inline ulong squaresBelow(ulong end)
+INLINE ulong squaresBelow(ulong end)
 {
   return end == 0 ? 0 : (end - 1) * end * (2 * end - 1) / 6;
 }

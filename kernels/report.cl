@@ -5,7 +5,7 @@
 #include "record.cl"
 
 /** Sum of the distances of the pixels start .. end - 1 of a row to a point: dx to the first pixel, dy to the row [px]. */
-inline float runDistance(int length, float dx, float dy)
+INLINE float runDistance(int length, float dx, float dy)
 {
   const int16 ramp = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const float16 dy2 = (float16)(dy * dy);

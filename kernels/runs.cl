@@ -6,7 +6,7 @@
 #include "mask.cl"
 
 /** Root of a run within its strip, compressing the path; one work-item owns the strip. */
-inline int stripRoot(global int* run_slot, int run)
+INLINE int stripRoot(global int* run_slot, int run)
 {
   int next = run_slot[run];
   while (next != run)

@@ -13,7 +13,7 @@ typedef struct
   ulong x, y, xx, xy, yy;
 } Moments;
 
-inline Moments runMoments(uint start, uint end, uint y)
+INLINE Moments runMoments(uint start, uint end, uint y)
 {
   const ulong length = end - start;
   const ulong x = sumOf(start, end);
@@ -21,7 +21,7 @@ inline Moments runMoments(uint start, uint end, uint y)
   return moments;
 }
 
-inline uint runPerimeter(global const ulong* mask, int width, int height, int y, int start, int end)
+INLINE uint runPerimeter(global const ulong* mask, int width, int height, int y, int start, int end)
 {
   const int first = start >> 6;
   const int last = (end - 1) >> 6;

@@ -15,13 +15,13 @@ kernel GROUP void sweepInit(int width, global int* restrict labels)
   }
 }
 
-inline bool isRegion(global const ulong* mask, int words, int x, int y)
+INLINE bool isRegion(global const ulong* mask, int words, int x, int y)
 {
   return ((mask[(size_t)y * words + (x >> 6)] >> (x & 63)) & 1) != 0;
 }
 
 /** Hands the label of the previous pixel on to this one; *previous = INT_MAX stands for an edge. */
-inline bool handOn(bool region, global int* label, int* previous)
+INLINE bool handOn(bool region, global int* label, int* previous)
 {
   if (!region)
   {

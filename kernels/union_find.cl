@@ -4,8 +4,10 @@
 #ifndef OUTDOOR_OMR_UNION_FIND_CL
 #define OUTDOOR_OMR_UNION_FIND_CL
 
+#include "geometry.cl"
+
 /** Root of a slot; reads only. */
-inline int rootOf(volatile global const int* parent, int slot)
+INLINE int rootOf(volatile global const int* parent, int slot)
 {
   int next;
   while ((next = parent[slot]) != slot)
@@ -19,7 +21,7 @@ inline int rootOf(volatile global const int* parent, int slot)
  * Root of a slot, halving the path on the way. It stores only ancestors, and only into slots that are no root: the race
  * with another work-item is benign. Without it a spiral takes four times as long.
  */
-inline int rootHalving(volatile global int* parent, int slot)
+INLINE int rootHalving(volatile global int* parent, int slot)
 {
   int next = parent[slot];
   while (next != slot)
@@ -35,7 +37,7 @@ inline int rootHalving(volatile global int* parent, int slot)
   return slot;
 }
 
-inline void unite(volatile global int* parent, int a, int b)
+INLINE void unite(volatile global int* parent, int a, int b)
 {
   while (true)
   {

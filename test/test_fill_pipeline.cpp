@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-#include <cstdlib>
+#include <algorithm>
+#include <cctype>
 #include <functional>
+#include <map>
+#include <memory>
 #include <opencv2/imgproc.hpp>
 
 #include "device_fill.h"
@@ -214,6 +219,31 @@ TEST_P(DeviceFillTest, regionOfInterestEndsAtItsBorder)
   {
     checkImage(part, filter, 5, 80);
   }
+}
+
+TEST_P(DeviceFillTest, readsNothingOutsideTheImage)
+{
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const cv::Size size(131, 41);
+  const std::size_t bytes = static_cast<std::size_t>(size.area()) * 3;
+  const std::size_t pages = (bytes + page - 1) / page;
+  void* memory = mmap(nullptr, (pages + 2) * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(MAP_FAILED, memory);
+  auto* first = static_cast<uchar*>(memory) + page;
+  ASSERT_EQ(0, mprotect(memory, page, PROT_NONE));
+  ASSERT_EQ(0, mprotect(first + pages * page, page, PROT_NONE));
+  for (uchar* data : {first, first + pages * page - bytes})
+  {
+    cv::Mat image(size, CV_8UC3, data);
+    noiseImage(size).copyTo(image);
+    checkImage(image, Filter::none, 3, 400);
+    for (const int window : {3, 5})
+    {
+      checkImage(image, Filter::gaussian, window, 100);
+      checkImage(image, Filter::median, window, 100);
+    }
+  }
+  munmap(memory, (pages + 2) * page);
 }
 
 TEST_P(DeviceFillTest, edgePatterns)

@@ -37,13 +37,14 @@ class FillPipeline
   };
 
   /**
-   * Chooses a device, builds the kernels and runs them once, so that the first image costs no more than the next.
+   * Chooses a device, builds the kernels and runs them once, so that the first image costs little more than the next.
+   * The kernels take seconds to build where the driver keeps no cache of them.
    *
-   * @param device "auto": a GPU if there is one, else a CPU device, else the reference; "gpu" or "cpu": the first of
-   * that type; "reference": plain C++; anything else: the first device whose name contains this text, regardless of
-   * case.
-   * @throws DeviceError if a device was asked for by type or name and is absent (the message lists those present), or
-   *                     when a kernel does not build (the message ends with the build log).
+   * @param device "auto": the first that works of the GPUs, the CPU devices, and the reference; "gpu" or "cpu": the
+   * first of that type; "reference": plain C++; anything else: the first device whose description (see devices())
+   * contains this text, regardless of case.
+   * @throws DeviceError unless device is "auto" or "reference": if there is no such device (the message lists those
+   *                     present), or when a kernel does not build (the message ends with the build log).
    */
   explicit FillPipeline(const std::string& device = "auto");
   ~FillPipeline();
@@ -57,13 +58,14 @@ class FillPipeline
    * @param settings the tunables of group "fill".
    * @param outputs  what to bring back.
    * @param map      receives the result; its memory is reused.
-   * @param times    if not null, receives filter, edges, labels and region data [ms].
-   * @throws std::invalid_argument if bgr is empty, too large or of another type; DeviceError if the device fails.
+   * @param times    if not null, filter, edges, labels and region data are appended [ms]; they add up to the whole run.
+   * @throws std::invalid_argument if bgr is empty, too large or of another type, or a tunable is out of bounds;
+   *         DeviceError if the device fails or lacks the memory.
    */
   void run(const cv::Mat& bgr, const Settings& settings, const Outputs& outputs, RegionMap& map,
            std::vector<StepTime>* times = nullptr);
 
-  /** Name of the device as its driver gives it; "reference (no OpenCL)" for plain C++. */
+  /** The device's description, see devices(); "reference (no OpenCL)" for plain C++. */
   const std::string& deviceName() const;
 
   /** Why "auto" fell back to the reference; empty when it did not. */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 
 #include "outdoor_omr/fill_pipeline.h"
@@ -16,11 +17,6 @@ std::string lowerCase(std::string text)
   return text;
 }
 
-cl_device_type typeOf(const Device& device)
-{
-  return device.device.getInfo<CL_DEVICE_TYPE>();
-}
-
 std::string typeName(cl_device_type type)
 {
   return (type & CL_DEVICE_TYPE_GPU) ? "GPU" : (type & CL_DEVICE_TYPE_CPU) ? "CPU" : "accelerator";
@@ -33,22 +29,15 @@ bool usable(const cl::Device& device)
          device.getInfo<CL_DEVICE_ENDIAN_LITTLE>();
 }
 
-/** GPUs first, then CPUs, then the rest. */
-int preference(const Device& device)
-{
-  const cl_device_type type = typeOf(device);
-  return (type & CL_DEVICE_TYPE_GPU) ? 0 : (type & CL_DEVICE_TYPE_CPU) ? 1 : 2;
-}
-
 bool matches(const Device& device, const std::string& name)
 {
   if (name == "gpu")
   {
-    return (typeOf(device) & CL_DEVICE_TYPE_GPU) != 0;
+    return device.isGpu();
   }
   if (name == "cpu")
   {
-    return device.cpu;
+    return device.isCpu();
   }
   return lowerCase(device.description).find(name) != std::string::npos;
 }
@@ -77,10 +66,8 @@ std::vector<Device> findDevices()
         if (usable(device))
         {
           const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
-          found.push_back({device,
-                           platform.getInfo<CL_PLATFORM_NAME>() + ": " + device.getInfo<CL_DEVICE_NAME>() + " (" +
-                               typeName(type) + ")",
-                           (type & CL_DEVICE_TYPE_CPU) != 0});
+          const std::string name = platform.getInfo<CL_PLATFORM_NAME>() + ": " + device.getInfo<CL_DEVICE_NAME>();
+          found.push_back({device, type, name + " (" + typeName(type) + ")"});
         }
       }
     }
@@ -98,9 +85,12 @@ std::vector<Device> selectDevices(const std::string& name)
   std::vector<Device> selected;
   if (name == "auto")
   {
-    selected = present;
-    std::stable_sort(selected.begin(), selected.end(),
-                     [](const Device& a, const Device& b) { return preference(a) < preference(b); });
+    const auto append = [&](const auto& fits) {
+      std::copy_if(present.begin(), present.end(), std::back_inserter(selected), fits);
+    };
+    append([](const Device& device) { return device.isGpu(); });
+    append([](const Device& device) { return device.isCpu(); });
+    append([](const Device& device) { return !device.isGpu() && !device.isCpu(); });
     return selected;
   }
   std::copy_if(present.begin(), present.end(), std::back_inserter(selected),

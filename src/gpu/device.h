@@ -12,8 +12,19 @@ namespace outdoor_omr
 struct Device
 {
   cl::Device device;
+  cl_device_type type = 0;
   std::string description;  ///< "platform: device (type)"
-  bool cpu = false;         ///< an OpenCL CPU device: it shares the host's memory
+
+  bool isGpu() const
+  {
+    return (type & CL_DEVICE_TYPE_GPU) != 0;
+  }
+
+  /** Whether it shares the host's memory and caches. */
+  bool isCpu() const
+  {
+    return (type & CL_DEVICE_TYPE_CPU) != 0;
+  }
 };
 
 /** Every usable OpenCL device of this machine, in the order of the platforms; empty when there is none. */

@@ -28,14 +28,17 @@ struct AreaWindow
 };
 
 /**
- * The steps of the fill pipeline on one OpenCL device, to be called in the order of their declaration. A step enqueues
- * its kernels and returns; what waits says so. All may throw cl::Error.
+ * The steps of the fill pipeline (device_fill.cpp: image to region mask; device_regions.cpp: mask to regions) on one
+ * OpenCL device, to be called in the order of their declaration. A step enqueues its kernels and returns; what waits
+ * says so. All may throw cl::Error.
  */
 class DeviceFill
 {
  public:
   /** Builds the kernels and runs each of them once. @throws DeviceError with the build log if they do not build. */
   DeviceFill(const Device& device, Geometry geometry);
+  DeviceFill(const DeviceFill&) = delete;
+  DeviceFill& operator=(const DeviceFill&) = delete;
 
   /** Hands an image (CV_8UC3, not empty) to the device, which reads it until finish(). */
   void loadImage(const cv::Mat& bgr);
@@ -94,6 +97,7 @@ class DeviceFill
   void mergeSeams();
   void findRegions();
   void reportRegions();
+  Strips stripsOfDevice() const;
   Groups rows() const;
   Groups strips() const;
   Groups words(int row_count) const;
@@ -115,6 +119,16 @@ class DeviceFill
   cl_uint expected_reports_ = 64;
   cl::Event last_event_, loaded_, filtered_, edges_found_, labelled_;
 };
+
+template <typename... Arguments>
+void DeviceFill::launch(const std::string& kernel, const Groups& groups, const Arguments&... arguments)
+{
+  last_event_ = program_.launch(queue_, kernel, groups, arguments...);
+  if (loaded_() == nullptr)
+  {
+    loaded_ = last_event_;
+  }
+}
 
 }  // namespace outdoor_omr
 

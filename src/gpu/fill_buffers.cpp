@@ -36,8 +36,8 @@ void GrowingBuffer::reserve(const cl::Context& context, std::size_t count, std::
 void FillBuffers::reserve(const cl::Context& context, const cv::Size& size, const Strips& strips)
 {
   const std::size_t height = size.height;
-  const std::size_t words = height * ((size.width + 63) / 64);
-  const std::size_t all_runs = height * ((size.width + 1) / 2);
+  const std::size_t words = height * divideUp(size.width, 64);
+  const std::size_t all_runs = height * divideUp(size.width, 2);
   const std::size_t strip_count = strips.count(size.height);
   filtered.reserve(context, height * size.width, 3);
   mask.reserve(context, words, sizeof(cl_ulong));
@@ -55,17 +55,15 @@ void FillBuffers::reserve(const cl::Context& context, const cv::Size& size, cons
   {
     prefix.reserve(context, strip_count * (size.width + 1), sizeof(cl_ulong));
   }
-  if (record_capacity == 0)
-  {
-    reserveRecords(context, FIRST_RECORDS);
-    reserveReported(context, FIRST_REPORTED);
-  }
+  reserveRecords(context, record_capacity == 0 ? FIRST_RECORDS : 0);
+  reserveReported(context, reported_capacity == 0 ? FIRST_REPORTED : 0);
 }
 
 void FillBuffers::reserveRecords(const cl::Context& context, cl_uint count)
 {
   if (count > record_capacity)
   {
+    record_capacity = 0;  // nothing is left when the device has no room
     records.reserve(context, withMargin(count), sizeof(RegionSums));
     record_capacity = withMargin(count);
   }
@@ -75,6 +73,7 @@ void FillBuffers::reserveReported(const cl::Context& context, cl_uint count)
 {
   if (count > reported_capacity)
   {
+    reported_capacity = 0;  // nothing is left when the device has no room
     reported.reserve(context, withMargin(count), sizeof(RegionSums));
     reported_capacity = withMargin(count);
   }

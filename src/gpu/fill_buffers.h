@@ -8,6 +8,11 @@
 
 namespace outdoor_omr
 {
+inline int divideUp(int a, int b)
+{
+  return (a + b - 1) / b;
+}
+
 /** How the runs are cut into pieces of work, see kernels/runs.cl. */
 struct Strips
 {
@@ -15,7 +20,7 @@ struct Strips
   bool united = false;  ///< one lane unites the runs of a strip without atomics (CPU); else every run is a slot
   int count(int height) const
   {
-    return (height + rows - 1) / rows;
+    return divideUp(height, rows);
   }
 };
 

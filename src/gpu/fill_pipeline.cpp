@@ -1,9 +1,9 @@
 #include "outdoor_omr/fill_pipeline.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "device_fill.h"
 #include "outdoor_omr/reference_fill.h"
@@ -43,14 +43,13 @@ AreaWindow areaWindow(const Settings& settings, const cv::Mat& bgr)
 }
 
 /** Opens the first device that works; the reasons why others did not are appended to failures. */
-std::optional<DeviceFill> openDevice(const std::vector<Device>& devices, std::string& name, std::string& failures)
+std::unique_ptr<DeviceFill> openDevice(const std::vector<Device>& devices, std::string& name, std::string& failures)
 {
   for (const Device& device : devices)
   {
     try
     {
-      std::optional<DeviceFill> fill;
-      fill.emplace(device, device.cpu ? Geometry::strips : Geometry::words);
+      auto fill = std::make_unique<DeviceFill>(device, device.isCpu() ? Geometry::strips : Geometry::words);
       name = device.description;
       return fill;
     }
@@ -63,7 +62,7 @@ std::optional<DeviceFill> openDevice(const std::vector<Device>& devices, std::st
       failures += (failures.empty() ? "" : "\n") + std::string(error.what());
     }
   }
-  return std::nullopt;
+  return nullptr;
 }
 }  // namespace
 
@@ -195,7 +194,7 @@ class FillPipeline::Implementation
     map.labels = outputs.labels ? labels : cv::Mat();
   }
 
-  std::optional<DeviceFill> fill_;
+  std::unique_ptr<DeviceFill> fill_;  // null: the reference
   std::string name_ = "reference (no OpenCL)";
   std::string fallback_reason_;
   std::vector<RegionSums> sums_;

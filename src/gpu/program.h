@@ -26,7 +26,13 @@ class Program
    */
   Program(const cl::Context& context, const cl::Device& device, int lanes);
 
-  /** Enqueues the kernel called name; the event follows it. */
+  /** The groups that make at least so many work-items. */
+  Groups groupsOf(std::size_t items) const
+  {
+    return {(items + lanes_ - 1) / lanes_, 1};
+  }
+
+  /** Enqueues the kernel called name; the event is its own. */
   template <typename... Arguments>
   cl::Event launch(const cl::CommandQueue& queue, const std::string& name, const Groups& groups,
                    const Arguments&... arguments)
