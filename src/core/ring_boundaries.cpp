@@ -15,12 +15,14 @@ constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all direct
 constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
 constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
 constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
+constexpr double TURN = -.3;            // cosine between the slopes of two edges of a narrow ring
 constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
+constexpr double SMALL_RADIUS = 3;      // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
 constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target may be half hidden
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
-constexpr double MAX_WIDTH_RATIO = 5;        // of the rings of one target
+constexpr double MAX_WIDTH_RATIO = 4.5;        // of the rings of one target
 
 int bits(std::uint64_t mask)
 {
@@ -77,11 +79,10 @@ std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
 /** Radii at which the slope, as a length over the channels, has a maximum. */
 std::vector<double> candidates(const RingProfile& profile)
 {
-  std::vector<double> slopes;
-  for (const cv::Vec3f& slope : medianSlopes(profile))
-  {
-    slopes.push_back(cv::norm(slope));
-  }
+  const std::vector<cv::Vec3f> directions = medianSlopes(profile);
+  std::vector<double> slopes(directions.size());
+  std::transform(directions.begin(), directions.end(), slopes.begin(),
+                 [](const cv::Vec3f& slope) { return cv::norm(slope); });
   const int reach = std::max(1, static_cast<int>(1 / profile.step));
   std::vector<double> radii;
   int last = -1;
@@ -95,9 +96,10 @@ std::vector<double> candidates(const RingProfile& profile)
     }
     if (last >= 0)
     {
-      // One edge may give two maxima; between two edges the slope falls.
+      // One edge may give two maxima; between two edges the slope falls, or turns back.
       const double valley = *std::min_element(slopes.begin() + last, slopes.begin() + i);
-      if (valley > VALLEY * std::min(slopes[i], slopes[last]))
+      const bool turns_back = directions[i].dot(directions[last]) < TURN * slopes[i] * slopes[last];
+      if (!turns_back && valley > VALLEY * std::min(slopes[i], slopes[last]))
       {
         if (slopes[i] <= slopes[last])
         {
@@ -180,8 +182,9 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {
   const Boundary& boundary = boundaries[k];
   const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
+  const double least_contrast = MIN_CONTRAST * (1 + SMALL_RADIUS / boundary.radius);
   double result =
-      std::min(boundary.contrast / MIN_CONTRAST, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
+      std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
   if (k > 0 && k + 1 == boundaries.size())
   {
     // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.

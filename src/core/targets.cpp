@@ -20,18 +20,38 @@ bool contains(const RingCandidate& candidate, const cv::Point2d& point)
   return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
 }
 
+/** The key's letters; a boundary between equal ones is no ring's: the family loses it. */
+std::string readColors(const RingProfile& profile, std::vector<double>& radii)
+{
+  while (true)
+  {
+    std::vector<LinearColor> colors = measureRingColors(profile, radii);
+    const LinearColor around = colors.back();
+    colors.pop_back();
+    const std::string key = readColorKey(colors, around);
+    std::size_t k = 0;
+    while (k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1]))
+    {
+      ++k;
+    }
+    if (k + 1 >= key.size())
+    {
+      return key;
+    }
+    radii.erase(radii.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
 Target toTarget(const RingCandidate& candidate)
 {
   Target target;
+  std::vector<double> radii = candidate.rings.radii;
+  target.colors = readColors(candidate.profile, radii);
   target.center = cv::Point2f(candidate.rings.family.center);
-  for (const double radius : candidate.rings.radii)
+  for (const double radius : radii)
   {
     target.rings.push_back(candidate.rings.family.ellipse(radius));
   }
-  std::vector<LinearColor> colors = measureRingColors(candidate.profile, candidate.rings.radii);
-  const LinearColor around = colors.back();
-  colors.pop_back();
-  target.colors = readColorKey(colors, around);
   return target;
 }
 }  // namespace
@@ -74,7 +94,11 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   std::vector<Target> targets;
   for (const RingCandidate& candidate : accepted)
   {
-    targets.push_back(toTarget(candidate));
+    Target target = toTarget(candidate);
+    if (static_cast<int>(target.rings.size()) >= settings.target_min_rings)
+    {
+      targets.push_back(std::move(target));
+    }
   }
   return targets;
 }
