@@ -16,7 +16,6 @@ struct RingCandidate
   cv::Size image_size;
   Rings rings;
   std::vector<Boundary> boundaries;  ///< one per radius of rings
-  std::vector<double> support;       ///< angular support of each boundary by edgels [0, 1]
   RingProfile profile;               ///< of the final family
 };
 
