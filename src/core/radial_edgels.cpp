@@ -71,7 +71,7 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
 }
 
 AngularSupport::AngularSupport(const std::vector<RadialEdgel>& edgels, double max_radius)
-  : brighter_(static_cast<std::size_t>(max_radius / CELL) + 1), darker_(brighter_.size())
+    : brighter_(static_cast<std::size_t>(max_radius / CELL) + 1), darker_(brighter_.size())
 {
   for (const RadialEdgel& edgel : edgels)
   {

@@ -12,9 +12,9 @@ namespace
 constexpr int ANGLES = RingProfile::ANGLES;
 constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
 constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all directions see the same pixels
-constexpr int MIN_EDGED = 16;          // directions with an edge that make a median
-constexpr double MIN_WIDTH = 2.5;      // of a ring whose boundaries edgels alone show [px]
-constexpr double MIDDLE = .4;          // of a ring: from here to 1 - MIDDLE
+constexpr int MIN_EDGED = 16;           // directions with an edge that make a median
+constexpr double MIN_WIDTH = 2.5;       // of a ring whose boundaries edgels alone show [px]
+constexpr double MIDDLE = .4;           // of a ring: from here to 1 - MIDDLE
 constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
 constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
 constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
@@ -25,7 +25,7 @@ constexpr double CLEAR_CONTRAST = .3;
 constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target may be half hidden
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
-constexpr double MAX_WIDTH_RATIO = 4.5;        // of the rings of one target
+constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
 
 int bits(AngleBins mask)
 {

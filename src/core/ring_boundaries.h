@@ -11,11 +11,11 @@ namespace outdoor_omr
 /** A circle on which the colour steps by the same amount in (nearly) all directions. */
 struct Boundary
 {
-  double radius = 0;       ///< [px]
-  LogColor change;         ///< median colour step from the ring inside to what is outside it
-  double contrast = 0;     ///< length of that step
-  double coherence = 0;  ///< |sum of the steps| / sum of |steps| over the directions with an edge [0, 1]
-  double agreement = 0;    ///< share of the directions whose step resembles the median and lies at the radius [0, 1]
+  double radius = 0;        ///< [px]
+  LogColor change;          ///< median colour step from the ring inside to what is outside it
+  double contrast = 0;      ///< length of that step
+  double coherence = 0;     ///< |sum of the steps| / sum of |steps| over the directions with an edge [0, 1]
+  double agreement = 0;     ///< share of the directions whose step resembles the median and lies at the radius [0, 1]
   AngleBins seen = 0;       ///< directions that lie inside the image
   AngleBins agreeing = 0;   ///< directions that agree
   AngleBins supported = 0;  ///< directions with an edgel

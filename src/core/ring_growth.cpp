@@ -10,12 +10,12 @@ namespace
 {
 constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
 constexpr double FINE_COSINE = 0.9;
-constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
-constexpr double RELATIVE_SUPPORT = 0.6;   // of the best supported boundary
-constexpr double ABOVE_BACKGROUND = 0.2;   // above the median over all radii
-constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
+constexpr double MIN_SUPPORT = 0.42;      // of the directions: 25 to 40 % of a target may be hidden
+constexpr double RELATIVE_SUPPORT = 0.6;  // of the best supported boundary
+constexpr double ABOVE_BACKGROUND = 0.2;  // above the median over all radii
+constexpr double MIN_DISTANCE = 1.6;      // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
-constexpr double MAX_RADIUS = 600;         // [px]
+constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
 constexpr double CELL = AngularSupport::CELL;

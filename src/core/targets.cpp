@@ -14,8 +14,8 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 150;            // that are looked at
-constexpr double UNDISPUTED = .85;         // evidence x visible share of a candidate that no other seed will better
+constexpr int MAX_PIECES = 150;             // that are looked at
+constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
 constexpr double MIN_UNREAD_DIAMETER = 30;  // of a target of three rings with unknown ones [px]
 
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
@@ -98,6 +98,10 @@ Target toTarget(const RingCandidate& candidate)
 
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const Settings& settings)
 {
+  if (frame.bgr.empty())
+  {
+    return {};
+  }
   EdgelMap map(frame.bgr);
   std::vector<RingCandidate> candidates;
   const auto is_taken = [&](const cv::Point2d& point) {
