@@ -17,13 +17,15 @@ const std::array<LinearColor, LETTERS> REFLECTANCE = {LinearColor(1, 1, 1), Line
                                                       LinearColor(.66, .062, .055), LinearColor(.053, .33, .095),
                                                       LinearColor(.06, .09, .38)};
 
+constexpr double DARKEST = .055;   // ink; cameras that clip the blacks show less
 constexpr double FLOOR = .03;      // of the white: glare and noise hide darker differences
 constexpr double DEVIATION = .45;  // of the logarithm of the reflectance
 constexpr double LARGEST_COST = 16;
-constexpr double SAME_AS_NEIGHBOR = 8;  // cost of a boundary between equal letters
-constexpr double TINT_DEVIATION = .35;  // of the logarithm of white's red and blue over green
-constexpr double FREE_WHITE_COST = 3;   // of a white that is seen nowhere
-constexpr double HAZE_COST = 4;         // of a haze as bright as the white
+constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal letters
+constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
+constexpr double EXCESS_DEVIATION = .3;  // of the logarithm: gloss and uneven light
+constexpr double FREE_WHITE_COST = 3;    // of a white that is seen nowhere
+constexpr double HAZE_COST = 4;          // of a haze as bright as the white
 const std::array<double, 7> HAZES = {0, .03, .07, .12, .2, .3, .45};
 
 constexpr double MIN_MARGIN = 1.5;  // between the best explanation and the best with another letter
@@ -43,7 +45,8 @@ Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze
   {
     for (int c = 0; c < 3; ++c)
     {
-      const double reflectance = std::max(0., (ring[c] / white[c] - haze) / (1 - haze));
+      // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
+      const double reflectance = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze));
       costs[letter] += squared((std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR)) / DEVIATION);
     }
     costs[letter] = std::min(costs[letter], LARGEST_COST);
@@ -106,6 +109,18 @@ double tintCost(const LinearColor& color)
          squared(std::log(color[2] / color[1]) / TINT_DEVIATION);
 }
 
+/** Nothing is much brighter than white. */
+double excessCost(const std::vector<LinearColor>& rings, const LinearColor& white)
+{
+  double cost = 0;
+  for (const LinearColor& ring : rings)
+  {
+    const double ratio = std::max({ring[0] / white[0], ring[1] / white[1], ring[2] / white[2]});
+    cost += squared(std::max(0., std::log(ratio) - EXCESS_DEVIATION) / EXCESS_DEVIATION);
+  }
+  return cost;
+}
+
 std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const LinearColor& around)
 {
   std::vector<White> whites = {{around, tintCost(around)}};
@@ -151,7 +166,7 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
       {
         costs.push_back(letterCosts(ring, white.color, haze));
       }
-      const double assumed = white.cost + HAZE_COST * haze;
+      const double assumed = white.cost + excessCost(rings, white.color) + HAZE_COST * haze;
       Explanation explanation = cheapest(costs, rings.size(), 0);
       for (std::size_t k = 0; k < rings.size(); ++k)
       {

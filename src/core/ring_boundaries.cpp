@@ -12,17 +12,22 @@ namespace
 constexpr int ANGLES = RingProfile::ANGLES;
 constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
 constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all directions see the same pixels
+constexpr int MIN_EDGED = 16;           // directions with an edge that make a median
+constexpr double MIN_WIDTH = 2.5;       // of a ring whose boundaries edgels alone show [px]
+constexpr double MIDDLE = .4;           // of a ring: from here to 1 - MIDDLE
 constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
 constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
 constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
+constexpr double TURN = -.3;            // cosine between the slopes of two edges of a narrow ring
 constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
+constexpr double SMALL_RADIUS = 3;      // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
 constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target may be half hidden
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
-constexpr double MAX_WIDTH_RATIO = 5;        // of the rings of one target
+constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
 
-int bits(std::uint64_t mask)
+int bits(AngleBins mask)
 {
   return __builtin_popcountll(mask);
 }
@@ -77,11 +82,10 @@ std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
 /** Radii at which the slope, as a length over the channels, has a maximum. */
 std::vector<double> candidates(const RingProfile& profile)
 {
-  std::vector<double> slopes;
-  for (const cv::Vec3f& slope : medianSlopes(profile))
-  {
-    slopes.push_back(cv::norm(slope));
-  }
+  const std::vector<cv::Vec3f> directions = medianSlopes(profile);
+  std::vector<double> slopes(directions.size());
+  std::transform(directions.begin(), directions.end(), slopes.begin(),
+                 [](const cv::Vec3f& slope) { return cv::norm(slope); });
   const int reach = std::max(1, static_cast<int>(1 / profile.step));
   std::vector<double> radii;
   int last = -1;
@@ -95,9 +99,10 @@ std::vector<double> candidates(const RingProfile& profile)
     }
     if (last >= 0)
     {
-      // One edge may give two maxima; between two edges the slope falls.
+      // One edge may give two maxima; between two edges the slope falls, or turns back.
       const double valley = *std::min_element(slopes.begin() + last, slopes.begin() + i);
-      if (valley > VALLEY * std::min(slopes[i], slopes[last]))
+      const bool turns_back = directions[i].dot(directions[last]) < TURN * slopes[i] * slopes[last];
+      if (!turns_back && valley > VALLEY * std::min(slopes[i], slopes[last]))
       {
         if (slopes[i] <= slopes[last])
         {
@@ -114,6 +119,23 @@ std::vector<double> candidates(const RingProfile& profile)
   return radii;
 }
 
+/** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
+void addKnown(const std::vector<double>& known, double limit, std::vector<double>& radii)
+{
+  const std::vector<double> own = radii;
+  for (const double radius : known)
+  {
+    const auto next = std::lower_bound(own.begin(), own.end(), radius);
+    const double outer = next == own.end() ? limit : *next;
+    const double inner = next == own.begin() ? 0 : *(next - 1);
+    if (std::min(radius - inner, outer - radius) > std::max(MIN_WIDTH, MIDDLE * (outer - inner)))
+    {
+      radii.push_back(radius);
+    }
+  }
+  std::sort(radii.begin(), radii.end());
+}
+
 /** How far to either side of a boundary its whole step shows [px]. */
 double stepReach(const std::vector<double>& radii, std::size_t k)
 {
@@ -122,19 +144,17 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
   return std::min({.5 * inside, .5 * outside, std::max(2., .02 * radii[k])});
 }
 
-Boundary measure(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
+Boundary measure(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
+                 std::size_t k)
 {
   const double reach = stepReach(radii, k);
   const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
   const int outer = static_cast<int>(std::lround((radii[k] + reach) / profile.step));
   std::array<LogColor, ANGLES> steps;
   std::array<LogColor, ANGLES> local_steps;
-  std::array<Values, 3> values;
   Boundary boundary;
   boundary.radius = radii[k];
-  int count = 0;
-  LogColor sum;
-  double length_sum = 0;
+  boundary.supported = support.at(radii[k], std::max(.8, .012 * radii[k]));
   for (int angle = 0; angle < ANGLES; ++angle)
   {
     LogColor before;
@@ -144,19 +164,32 @@ Boundary measure(const RingProfile& profile, const std::vector<double>& radii, s
     {
       local_steps[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
       steps[angle] = after - before;
+      boundary.seen |= AngleBins{1} << angle;
+    }
+  }
+  if (bits(boundary.seen) < MIN_ANGLES)
+  {
+    return boundary;
+  }
+  // What hides a boundary has an edge elsewhere.
+  const AngleBins edged = boundary.seen & boundary.supported;
+  const AngleBins typical = bits(edged) >= MIN_EDGED ? edged : boundary.seen;
+  std::array<Values, 3> values;
+  int count = 0;
+  LogColor sum;
+  double length_sum = 0;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    if ((typical >> angle & 1) != 0)
+    {
       sum += steps[angle];
       length_sum += cv::norm(steps[angle]);
       for (int c = 0; c < 3; ++c)
       {
         values[c][count] = steps[angle][c];
       }
-      boundary.seen |= std::uint64_t{1} << angle;
       ++count;
     }
-  }
-  if (count < MIN_ANGLES)
-  {
-    return boundary;
   }
   boundary.change = LogColor(median(values[0], count), median(values[1], count), median(values[2], count));
   boundary.contrast = cv::norm(boundary.change);
@@ -168,10 +201,10 @@ Boundary measure(const RingProfile& profile, const std::vector<double>& radii, s
     const double here = local_steps[angle].dot(boundary.change);
     if ((boundary.seen >> angle & 1) != 0 && along > .4 * squared && along < 2.5 * squared && here > .35 * squared)
     {
-      boundary.agreeing |= std::uint64_t{1} << angle;
+      boundary.agreeing |= AngleBins{1} << angle;
     }
   }
-  boundary.agreement = bits(boundary.agreeing) / static_cast<double>(count);
+  boundary.agreement = bits(boundary.agreeing) / static_cast<double>(bits(boundary.seen));
   return boundary;
 }
 
@@ -180,12 +213,13 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {
   const Boundary& boundary = boundaries[k];
   const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
+  const double least_contrast = MIN_CONTRAST * (1 + SMALL_RADIUS / boundary.radius);
   double result =
-      std::min(boundary.contrast / MIN_CONTRAST, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
+      std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
   if (k > 0 && k + 1 == boundaries.size())
   {
     // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.
-    const std::uint64_t inner = boundaries[k - 1].agreeing & boundary.seen;
+    const AngleBins inner = boundaries[k - 1].agreeing & boundary.seen;
     const double shared = bits(inner & boundary.agreeing) / std::max(1., static_cast<double>(bits(inner)));
     result = std::min(result, shared / MIN_OUTER_AGREEMENT);
   }
@@ -212,13 +246,15 @@ int tooNarrow(const std::vector<double>& radii)
 }
 }  // namespace
 
-std::vector<Boundary> findBoundaries(const RingProfile& profile)
+std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSupport& support,
+                                     const std::vector<double>& known)
 {
   std::vector<double> radii = candidates(profile);
+  addKnown(known, (profile.count - 1) * profile.step, radii);
   std::vector<Boundary> boundaries(radii.size());
   for (std::size_t k = 0; k < radii.size(); ++k)
   {
-    boundaries[k] = measure(profile, radii, k);
+    boundaries[k] = measure(profile, support, radii, k);
   }
   const auto remove = [&](std::size_t k) {
     const auto offset = static_cast<std::ptrdiff_t>(k);
@@ -226,7 +262,7 @@ std::vector<Boundary> findBoundaries(const RingProfile& profile)
     boundaries.erase(boundaries.begin() + offset);
     for (std::size_t neighbor = k > 0 ? k - 1 : 0; neighbor < std::min(k + 1, radii.size()); ++neighbor)
     {
-      boundaries[neighbor] = measure(profile, radii, neighbor);
+      boundaries[neighbor] = measure(profile, support, radii, neighbor);
     }
   };
   while (!radii.empty())

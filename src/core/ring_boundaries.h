@@ -1,9 +1,9 @@
 #ifndef OUTDOOR_OMR_CORE_RING_BOUNDARIES_H
 #define OUTDOOR_OMR_CORE_RING_BOUNDARIES_H
 
-#include <cstdint>
 #include <vector>
 
+#include "radial_edgels.h"
 #include "ring_profile.h"
 
 namespace outdoor_omr
@@ -11,20 +11,26 @@ namespace outdoor_omr
 /** A circle on which the colour steps by the same amount in (nearly) all directions. */
 struct Boundary
 {
-  double radius = 0;       ///< [px]
-  LogColor change;         ///< median colour step from the ring inside to what is outside it
-  double contrast = 0;     ///< length of that step
-  double coherence = 0;    ///< |sum of the steps| / sum of |steps| over all directions [0, 1]
-  double agreement = 0;    ///< share of the directions whose step resembles the median and lies at the radius [0, 1]
-  std::uint64_t seen = 0;  ///< one bit per direction that lies inside the image
-  std::uint64_t agreeing = 0;  ///< one bit per direction that agrees
+  double radius = 0;        ///< [px]
+  LogColor change;          ///< median colour step from the ring inside to what is outside it
+  double contrast = 0;      ///< length of that step
+  double coherence = 0;     ///< |sum of the steps| / sum of |steps| over the directions with an edge [0, 1]
+  double agreement = 0;     ///< share of the directions whose step resembles the median and lies at the radius [0, 1]
+  AngleBins seen = 0;       ///< directions that lie inside the image
+  AngleBins agreeing = 0;   ///< directions that agree
+  AngleBins supported = 0;  ///< directions with an edgel
 };
 
 /**
  * The boundaries between rings of any width: the fewest that explain the profile. A shadow's edge, a scratch or a
  * texture steps in some directions only, an overshoot has the same colour on both sides; neither is a boundary.
+ *
+ * @param support edgels of the profile's family: a boundary that is hidden in most directions is measured in those in
+ *                which it has an edge.
+ * @param known   radii at which a boundary may be, beside those at which the profile has a median slope [px].
  */
-std::vector<Boundary> findBoundaries(const RingProfile& profile);
+std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSupport& support,
+                                     const std::vector<double>& known);
 
 }  // namespace outdoor_omr
 

@@ -16,8 +16,9 @@ struct RingCandidate
   cv::Size image_size;
   Rings rings;
   std::vector<Boundary> boundaries;  ///< one per radius of rings
-  std::vector<double> support;       ///< angular support of each boundary by edgels [0, 1]
   RingProfile profile;               ///< of the final family
+  double visible = 0;                ///< share of the directions in which at least half of the boundaries show [0, 1]
+  double evidence = 0;  ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]
 };
 
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */

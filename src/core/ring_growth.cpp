@@ -10,50 +10,15 @@ namespace
 {
 constexpr double COARSE_COSINE = 0.85;  // between gradient and radius, while the family is rough
 constexpr double FINE_COSINE = 0.9;
-constexpr double MIN_SUPPORT = 0.42;  // of the directions: 25 to 40 % of a target may be hidden
-constexpr double RELATIVE_SUPPORT = 0.6;   // of the best supported boundary
-constexpr double ABOVE_BACKGROUND = 0.2;   // above the median over all radii
-constexpr double MIN_DISTANCE = 1.6;  // between two boundaries [px]: closer ones merge in the gradient
+constexpr double MIN_SUPPORT = 0.42;      // of the directions: 25 to 40 % of a target may be hidden
+constexpr double RELATIVE_SUPPORT = 0.6;  // of the best supported boundary
+constexpr double ABOVE_BACKGROUND = 0.2;  // above the median over all radii
+constexpr double MIN_DISTANCE = 1.6;      // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
-constexpr double MAX_RADIUS = 600;         // [px]
-constexpr double MIN_RADIUS = .8;          // of an edgel [px]
+constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
-constexpr double CELL = 0.25;  // of the radial histogram [px]
-
-std::uint64_t binsAt(const cv::Point2d& q, double radius)
-{
-  const double angle = cv::fastAtan2(static_cast<float>(q.y), static_cast<float>(q.x)) * (ANGLE_BINS / 360.);
-  const double half = .6 / std::max(.6, radius) * (ANGLE_BINS / (2 * CV_PI));
-  std::uint64_t bins = 0;
-  for (int bin = static_cast<int>(std::floor(angle - half)); bin <= std::floor(angle + half); ++bin)
-  {
-    bins |= std::uint64_t{1} << ((bin + 2 * ANGLE_BINS) % ANGLE_BINS);
-  }
-  return bins;
-}
-
-/** Directions with edgels, apart by the gradient's sign: clutter has both on one circle, a boundary one. */
-struct SignedBins
-{
-  std::uint64_t brighter = 0, darker = 0;
-
-  void add(const RadialEdgel& edgel)
-  {
-    (edgel.brighter_outside ? brighter : darker) |= edgel.bins;
-  }
-
-  void add(const SignedBins& other)
-  {
-    brighter |= other.brighter;
-    darker |= other.darker;
-  }
-
-  double share() const
-  {
-    return std::max(__builtin_popcountll(brighter), __builtin_popcountll(darker)) / static_cast<double>(ANGLE_BINS);
-  }
-};
+constexpr double CELL = AngularSupport::CELL;
 
 struct Peak
 {
@@ -73,23 +38,13 @@ double leastSupport(std::vector<double> support)
 /** Radii at which the angular support has a maximum, ascending. */
 std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_radius, double tolerance)
 {
+  const AngularSupport map(edgels, max_radius);
   const int cells = static_cast<int>(max_radius / CELL) + 1;
-  std::vector<SignedBins> bins(static_cast<std::size_t>(cells));
-  for (const RadialEdgel& edgel : edgels)
-  {
-    bins[static_cast<std::size_t>(std::min(cells - 1, static_cast<int>(edgel.radius / CELL)))].add(edgel);
-  }
-  const int reach = static_cast<int>(std::lround(tolerance / CELL));
-  std::vector<double> support(bins.size());
+  std::vector<double> support(static_cast<std::size_t>(cells));
   std::vector<int> order;
   for (int i = 0; i < cells; ++i)
   {
-    SignedBins united;
-    for (int j = std::max(0, i - reach); j <= std::min(cells - 1, i + reach); ++j)
-    {
-      united.add(bins[j]);
-    }
-    support[i] = united.share();
+    support[i] = share(map.at((i + .5) * CELL, tolerance));
   }
   const double least = leastSupport(support);
   for (int i = 0; i < cells; ++i)
@@ -100,7 +55,7 @@ std::vector<Peak> findPeaks(const std::vector<RadialEdgel>& edgels, double max_r
     }
   }
   std::stable_sort(order.begin(), order.end(), [&](int left, int right) { return support[left] > support[right]; });
-  std::vector<char> taken(bins.size(), 0);
+  std::vector<char> taken(support.size(), 0);
   std::vector<Peak> peaks;
   const int distance = static_cast<int>(std::ceil(std::max(MIN_DISTANCE, 1.5 * tolerance) / CELL));
   for (const int i : order)
@@ -182,57 +137,6 @@ double nextReach(const Rings& rings, bool patient)
   return std::min(MAX_RADIUS, (rings.radii.size() == 1 ? (patient ? 5 : 2.4) : (patient ? 2.2 : 1.6)) * outermost + 5);
 }
 }  // namespace
-
-void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
-                         std::vector<RadialEdgel>& edgels)
-{
-  edgels.clear();
-  const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
-  const cv::Point2d& c = family.center;
-  const double max_squared = max_radius * max_radius;
-  const double min_squared = MIN_RADIUS * MIN_RADIUS;
-  const double squared_cosine = min_cosine * min_cosine;
-  map.visit(c.x - half.x, c.y - half.y, c.x + half.x, c.y + half.y, [&](const Edgel& edgel) {
-    // RingFamily::toPlane() and the gradient of the radius, up to a positive factor, without divisions.
-    const double dx = edgel.x - c.x;
-    const double dy = edgel.y - c.y;
-    const double m00 = family.a - dx * family.hx;
-    const double m01 = family.b - dx * family.hy;
-    const double m10 = family.b - dy * family.hx;
-    const double m11 = family.d - dy * family.hy;
-    const double det = m00 * m11 - m01 * m10;
-    const double qx = m11 * dx - m01 * dy;
-    const double qy = m00 * dy - m10 * dx;
-    const double squared = qx * qx + qy * qy;
-    const double det_squared = det * det;
-    if (squared > max_squared * det_squared || squared < min_squared * det_squared)
-    {
-      return;
-    }
-    const double gx = m11 * qx - m10 * qy;
-    const double gy = m00 * qy - m01 * qx;
-    const double projection = gx * edgel.nx + gy * edgel.ny;
-    if (projection * projection >= squared_cosine * (gx * gx + gy * gy))
-    {
-      const double radius = std::sqrt(squared) / det;
-      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius), projection > 0,
-                        binsAt(cv::Point2d(qx, qy), radius)});
-    }
-  });
-}
-
-double angularSupport(const std::vector<RadialEdgel>& edgels, double radius, double tolerance)
-{
-  SignedBins bins;
-  for (const RadialEdgel& edgel : edgels)
-  {
-    if (std::abs(edgel.radius - radius) <= tolerance)
-    {
-      bins.add(edgel);
-    }
-  }
-  return bins.share();
-}
 
 bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
 {

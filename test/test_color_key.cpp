@@ -1,0 +1,84 @@
+#include "color_key.h"
+
+#include <gtest/gtest.h>
+
+using outdoor_omr::LinearColor;
+using outdoor_omr::readColorKey;
+
+namespace
+{
+const LinearColor WHITE(.8, .8, .8);
+const LinearColor BLACK(.055, .055, .055);
+const LinearColor RED(.53, .05, .05);
+const LinearColor GREEN(.04, .26, .08);
+const LinearColor BLUE(.05, .07, .3);
+
+std::vector<LinearColor> under(const LinearColor& light, std::vector<LinearColor> colors)
+{
+  for (LinearColor& color : colors)
+  {
+    color = color.mul(light);
+  }
+  return colors;
+}
+}  // namespace
+
+TEST(ColorKey, readsAllLettersOnPaper)
+{
+  EXPECT_EQ("WPRGB", readColorKey({WHITE, BLACK, RED, GREEN, BLUE}, WHITE));
+  EXPECT_EQ("BGRPW", readColorKey({BLUE, GREEN, RED, BLACK, WHITE}, BLACK));
+}
+
+TEST(ColorKey, lightAndItsTintDoNotMatter)
+{
+  for (const LinearColor& light : {LinearColor(1, .7, .5), LinearColor(.1, .1, .12), LinearColor(.03, .03, .03)})
+  {
+    EXPECT_EQ("RWPGB", readColorKey(under(light, {RED, WHITE, BLACK, GREEN, BLUE}), WHITE.mul(light)));
+  }
+}
+
+TEST(ColorKey, whiteIsFoundInARingWhenTheSurroundingsAreNotWhite)
+{
+  const LinearColor yellow_paint(.6, .4, .05);
+  EXPECT_EQ("RWPGB", readColorKey({RED, WHITE, BLACK, GREEN, BLUE}, yellow_paint));
+  EXPECT_EQ("PWPW", readColorKey({BLACK, WHITE, BLACK, WHITE}, LinearColor(.2, .2, .2)));
+}
+
+TEST(ColorKey, saturatedRingsSayTheLevelWhereNothingIsWhite)
+{
+  EXPECT_EQ("RGBP", readColorKey({RED, GREEN, BLUE, BLACK}, LinearColor(.12, .12, .12)));
+}
+
+TEST(ColorKey, hazeLiftsAllRings)
+{
+  std::vector<LinearColor> rings = {RED, WHITE, BLACK, GREEN, BLUE};
+  for (LinearColor& ring : rings)
+  {
+    ring = .7 * ring + LinearColor::all(.25);
+  }
+  EXPECT_EQ("RWPGB", readColorKey(rings, .7 * WHITE + LinearColor::all(.25)));
+}
+
+TEST(ColorKey, unknownWhereNoLetterFits)
+{
+  const LinearColor yellow(.7, .6, .04);
+  EXPECT_EQ("P?P", readColorKey({BLACK, yellow, BLACK}, WHITE));
+}
+
+TEST(ColorKey, nothingFromNothing)
+{
+  EXPECT_EQ("", readColorKey({}, WHITE));
+}
+
+TEST(ColorKey, linearLightInvertsSrgb)
+{
+  EXPECT_DOUBLE_EQ(0, outdoor_omr::linearLight(0));
+  EXPECT_DOUBLE_EQ(1, outdoor_omr::linearLight(255));
+  EXPECT_NEAR(.2159, outdoor_omr::linearLight(128), 1e-3);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

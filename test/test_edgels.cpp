@@ -1,0 +1,100 @@
+#include "edgels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render_target.h"
+
+using outdoor_omr::Edgel;
+using outdoor_omr::EdgelMap;
+
+TEST(Edgels, lieOnTheCircleToATenthOfAPixel)
+{
+  TargetScene scene;
+  scene.colors = "P";
+  scene.radii = {60.4};
+  scene.sheet_half_side = 1000;
+  scene.noise = 0;
+  EdgelMap map(renderTarget(scene));
+  int count = 0;
+  double sum = 0;
+  double squared_sum = 0;
+  map.visit(0, 0, 479, 359, [&](const Edgel& edgel) {
+    const double dx = edgel.x - 240;
+    const double dy = edgel.y - 180;
+    const double r = std::hypot(dx, dy);
+    ++count;
+    sum += r;
+    squared_sum += r * r;
+    EXPECT_GT((dx * edgel.nx + dy * edgel.ny) / r, .95) << "towards the brighter side";
+  });
+  EXPECT_GT(count, 300);
+  // The transfer function moves an edge of high contrast towards its dark side.
+  const double mean = sum / count;
+  EXPECT_NEAR(60.4, mean, .5);
+  EXPECT_LT(std::sqrt(squared_sum / count - mean * mean), .1);
+}
+
+TEST(Edgels, followTheStrongestChannel)
+{
+  cv::Mat image(64, 64, CV_8UC3, cv::Scalar(40, 90, 40));
+  image.colRange(32, 64).setTo(cv::Scalar(40, 40, 200));
+  EdgelMap map(image);
+  int count = 0;
+  map.visit(0, 0, 63, 63, [&](const Edgel& edgel) {
+    ++count;
+    EXPECT_NEAR(31.5, edgel.x, .05);
+    EXPECT_GT(edgel.nx, .99);
+  });
+  EXPECT_GE(count, 60);
+}
+
+TEST(Edgels, tilesJoinWithoutGapsOrDoubles)
+{
+  cv::Mat image(100, 150, CV_8UC3, cv::Scalar::all(30));
+  image.rowRange(64, 100).setTo(cv::Scalar::all(200));
+  EdgelMap map(image);
+  std::vector<int> columns(150, 0);
+  map.visit(0, 0, 149, 99, [&](const Edgel& edgel) { ++columns[static_cast<std::size_t>(std::lround(edgel.x))]; });
+  for (int x = 1; x < 149; ++x)
+  {
+    EXPECT_EQ(1, columns[x]) << x;
+  }
+}
+
+TEST(Edgels, onlyThoseInTheBox)
+{
+  cv::Mat image(100, 100, CV_8UC3, cv::Scalar::all(30));
+  image.colRange(50, 100).setTo(cv::Scalar::all(200));
+  EdgelMap map(image);
+  map.visit(20, 30, 80, 40, [&](const Edgel& edgel) {
+    EXPECT_GE(edgel.y, 30);
+    EXPECT_LE(edgel.y, 40);
+  });
+  map.visit(-50, -50, -10, -10, [](const Edgel&) { FAIL(); });
+}
+
+TEST(Edgels, thresholdFollowsTheNoise)
+{
+  cv::Mat clean(200, 200, CV_8UC3, cv::Scalar::all(100));
+  cv::Mat noisy = clean.clone();
+  cv::RNG random(5);
+  random.fill(noisy, cv::RNG::NORMAL, 100, 20);
+  EXPECT_LT(EdgelMap(clean).threshold(), EdgelMap(noisy).threshold());
+}
+
+TEST(Edgels, tinyImages)
+{
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 50), cv::Size(31, 3)})
+  {
+    EdgelMap map(cv::Mat(size, CV_8UC3, cv::Scalar::all(7)));
+    map.visit(0, 0, 100, 100, [](const Edgel&) { FAIL(); });
+  }
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

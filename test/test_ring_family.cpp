@@ -1,0 +1,115 @@
+#include "ring_family.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+using outdoor_omr::BoundaryPoint;
+using outdoor_omr::RingFamily;
+
+namespace
+{
+RingFamily tiltedFamily()
+{
+  RingFamily family;
+  outdoor_omr::familyFromMoments({320.3, 240.7}, 900, 200, 500, family);
+  family.hx = .0012;
+  family.hy = -.0007;
+  return family;
+}
+
+std::vector<BoundaryPoint> pointsOf(const RingFamily& family, const std::vector<double>& radii, double noise)
+{
+  cv::RNG random(3);
+  std::vector<BoundaryPoint> points;
+  for (std::size_t ring = 0; ring < radii.size(); ++ring)
+  {
+    for (int i = 0; i < 80; ++i)
+    {
+      const double phi = 2 * CV_PI * i / 80;
+      const cv::Point2d p = family.toImage(radii[ring] * cv::Point2d(std::cos(phi), std::sin(phi)));
+      points.push_back({p + cv::Point2d(random.gaussian(noise), random.gaussian(noise)), static_cast<int>(ring)});
+    }
+  }
+  return points;
+}
+}  // namespace
+
+TEST(RingFamily, planeAndImageInvertEachOther)
+{
+  const RingFamily family = tiltedFamily();
+  const cv::Point2d q(31, -58);
+  EXPECT_NEAR(0, cv::norm(family.toPlane(family.toImage(q)) - q), 1e-9);
+}
+
+TEST(RingFamily, momentsGiveShapeOfDeterminantOne)
+{
+  const RingFamily family = tiltedFamily();
+  EXPECT_NEAR(1, family.a * family.d - family.b * family.b, 1e-9);
+  // A A^T is the covariance, scaled.
+  EXPECT_NEAR(900. / 500, (family.a * family.a + family.b * family.b) / (family.b * family.b + family.d * family.d),
+              1e-9);
+  RingFamily none;
+  EXPECT_FALSE(outdoor_omr::familyFromMoments({0, 0}, 1, 2, 1, none));
+}
+
+TEST(RingFamily, ellipseIsTheCirclesImage)
+{
+  const RingFamily family = tiltedFamily();
+  const cv::RotatedRect ellipse = family.ellipse(70);
+  const double angle = ellipse.angle * CV_PI / 180;
+  for (int i = 0; i < 24; ++i)
+  {
+    const double phi = 2 * CV_PI * i / 24;
+    const cv::Point2d p = family.toImage(70 * cv::Point2d(std::cos(phi), std::sin(phi))) - cv::Point2d(ellipse.center);
+    const double along = (p.x * std::cos(angle) + p.y * std::sin(angle)) / (ellipse.size.width / 2);
+    const double across = (-p.x * std::sin(angle) + p.y * std::cos(angle)) / (ellipse.size.height / 2);
+    EXPECT_NEAR(1, along * along + across * across, 1e-3);
+  }
+  EXPECT_GT(cv::norm(cv::Point2d(ellipse.center) - family.center), 1) << "perspective moves the ellipse's centre";
+}
+
+TEST(RingFamily, refinementFindsTheTrueCentre)
+{
+  const RingFamily truth = tiltedFamily();
+  const std::vector<double> true_radii = {20, 44, 60, 90};
+  const std::vector<BoundaryPoint> points = pointsOf(truth, true_radii, .1);
+  RingFamily family;
+  outdoor_omr::familyFromMoments({323, 239}, 850, 170, 520, family);
+  std::vector<double> radii = {21, 43, 61, 88};
+  const double rms = outdoor_omr::refineFamily(points, true, family, radii);
+  EXPECT_LT(rms, .15);
+  EXPECT_NEAR(0, cv::norm(family.center - truth.center), .05);
+  EXPECT_NEAR(90, radii[3], .1);
+}
+
+TEST(RingFamily, refinementSurvivesOutliers)
+{
+  const RingFamily truth = tiltedFamily();
+  const std::vector<double> true_radii = {20, 44, 60, 90};
+  std::vector<BoundaryPoint> points = pointsOf(truth, true_radii, .1);
+  for (std::size_t i = 0; i < points.size(); i += 4)
+  {
+    points[i].position += cv::Point2d(5, 3);
+  }
+  RingFamily family = truth;
+  family.center += cv::Point2d(1, -1);
+  std::vector<double> radii = true_radii;
+  outdoor_omr::refineFamily(points, true, family, radii);
+  EXPECT_NEAR(0, cv::norm(family.center - truth.center), .1);
+}
+
+TEST(RingFamily, refusesTooFewPoints)
+{
+  RingFamily family;
+  std::vector<double> radii = {10};
+  EXPECT_TRUE(std::isinf(outdoor_omr::refineFamily({}, true, family, radii)));
+  EXPECT_EQ(10, radii[0]);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/reference_fill.h"
+#include "outdoor_omr/targets.h"
+#include "render_target.h"
+
+using outdoor_omr::Settings;
+using outdoor_omr::Target;
+
+namespace
+{
+std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
+{
+  const cv::Mat filtered = outdoor_omr::filterImage(image, settings.filter, settings.filter_size);
+  const cv::Mat edges = outdoor_omr::edgeMask(filtered, settings.sobel_threshold);
+  outdoor_omr::RegionMap regions;
+  regions.size = image.size();
+  for (const auto& sums : outdoor_omr::sumRegions(filtered, edges, outdoor_omr::labelRegions(edges)))
+  {
+    if (static_cast<int>(sums.area) >= settings.region_min_area &&
+        sums.area <= settings.region_max_share * image.total())
+    {
+      regions.regions.push_back(outdoor_omr::toRegion(sums));
+    }
+  }
+  return outdoor_omr::findTargets(outdoor_omr::makeFrame(image), regions, settings);
+}
+
+void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1)
+{
+  const std::vector<Target> targets = find(renderTarget(scene));
+  ASSERT_EQ(1U, targets.size());
+  EXPECT_EQ(colors, targets[0].colors);
+  EXPECT_EQ(colors.size(), targets[0].rings.size());
+  EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), tolerance);
+}
+}  // namespace
+
+TEST(Targets, readsEveryColourOnPaper)
+{
+  for (const std::string colors : {"RWPGB", "WPWPB", "PBGRP", "BGWRG"})
+  {
+    TargetScene scene;
+    scene.colors = colors;
+    expectFound(scene, colors);
+  }
+}
+
+TEST(Targets, centreIsTheImageOfTheCirclesCentreUnderPerspective)
+{
+  TargetScene scene;
+  for (const double direction : {0., 1., 2.5})
+  {
+    scene.homography = tiltedView({250, 170}, .8, direction, 1, 500);
+    expectFound(scene, "RWPGB");
+  }
+}
+
+TEST(Targets, ringsAreTheEllipsesOfTheCircles)
+{
+  TargetScene scene;
+  scene.homography = tiltedView({240, 180}, .7, .5, 1, 600);
+  const std::vector<Target> targets = find(renderTarget(scene));
+  ASSERT_EQ(1U, targets.size());
+  ASSERT_EQ(5U, targets[0].rings.size());
+  for (std::size_t k = 0; k < 5; ++k)
+  {
+    std::vector<cv::Point2f> outline;
+    for (int i = 0; i < 90; ++i)
+    {
+      const double phi = 2 * CV_PI * i / 90;
+      const cv::Vec3d p =
+          scene.homography * cv::Vec3d(scene.radii[k] * std::cos(phi), scene.radii[k] * std::sin(phi), 1);
+      outline.emplace_back(static_cast<float>(p[0] / p[2]), static_cast<float>(p[1] / p[2]));
+    }
+    const cv::RotatedRect expected = cv::fitEllipse(outline);
+    const cv::RotatedRect& ring = targets[0].rings[k];
+    EXPECT_NEAR(expected.center.x, ring.center.x, .2);
+    EXPECT_NEAR(expected.center.y, ring.center.y, .2);
+    EXPECT_NEAR(std::max(expected.size.width, expected.size.height), std::max(ring.size.width, ring.size.height), 1);
+    EXPECT_NEAR(std::min(expected.size.width, expected.size.height), std::min(ring.size.width, ring.size.height), 1);
+  }
+}
+
+TEST(Targets, ringsOfUnequalWidth)
+{
+  TargetScene scene;
+  scene.radii = {30, 40, 70, 82, 100};
+  expectFound(scene, "RWPGB");
+  scene.radii = {12, 42, 54, 90, 100};
+  expectFound(scene, "RWPGB");
+}
+
+TEST(Targets, threeRingsToNine)
+{
+  TargetScene scene;
+  scene.colors = "BWR";
+  scene.radii = {33, 66, 100};
+  expectFound(scene, "BWR");
+  scene.colors = "RWPWGWBWP";
+  scene.radii = {11, 22, 33, 44, 55, 66, 77, 88, 99};
+  expectFound(scene, "RWPWGWBWP");
+}
+
+TEST(Targets, whiteOutermostRingOnDarkGround)
+{
+  TargetScene scene;
+  scene.sheet_half_side = 0;
+  scene.ground = {.05, .05, .05};
+  scene.colors = "RPGW";
+  scene.radii = {25, 50, 75, 100};
+  expectFound(scene, "RPGW");
+}
+
+TEST(Targets, colouredAndTexturedGround)
+{
+  TargetScene scene;
+  scene.sheet_half_side = 0;
+  scene.colors = "BWPWR";
+  scene.ground = {.05, .4, .6};
+  expectFound(scene, "BWPWR");
+  scene.ground = {.3, .3, .3};
+  scene.texture = .6;
+  expectFound(scene, "BWPWR");
+}
+
+TEST(Targets, halfInHardShadow)
+{
+  TargetScene scene;
+  scene.shadow = .2;
+  scene.noise = 1;
+  for (const std::string colors : {"RWPGB", "WRWBP"})
+  {
+    scene.colors = colors;
+    expectFound(scene, colors, .2);
+  }
+}
+
+TEST(Targets, tintedAndUnevenLight)
+{
+  TargetScene scene;
+  scene.tint = {.6, .9, 1};
+  scene.gradient = .8;
+  scene.light = .6;
+  expectFound(scene, "RWPGB");
+}
+
+TEST(Targets, partlyHidden)
+{
+  TargetScene scene;
+  scene.occluder = .25;
+  expectFound(scene, "RWPGB", .3);
+}
+
+TEST(Targets, smallRings)
+{
+  TargetScene scene;
+  scene.colors = "WPWP";
+  scene.radii = {5, 10, 15, 20};
+  expectFound(scene, "WPWP");
+}
+
+TEST(Targets, minRingsDecidesAboutTwoRings)
+{
+  TargetScene scene;
+  scene.colors = "RP";
+  scene.radii = {45, 90};
+  const cv::Mat image = renderTarget(scene);
+  EXPECT_TRUE(find(image).empty());
+  Settings settings;
+  settings.target_min_rings = 2;
+  const std::vector<Target> targets = find(image, settings);
+  ASSERT_EQ(1U, targets.size());
+  EXPECT_EQ("RP", targets[0].colors);
+}
+
+TEST(Targets, noneInSquaresCheckerboardsAndNoise)
+{
+  cv::Mat image(400, 600, CV_8UC3, cv::Scalar::all(230));
+  for (int k = 5; k > 0; --k)
+  {
+    const cv::Rect square(150 - 25 * k, 150 - 25 * k, 50 * k, 50 * k);
+    cv::rectangle(image, square, k % 2 ? cv::Scalar(40, 40, 200) : cv::Scalar(230, 230, 230), cv::FILLED);
+  }
+  for (int row = 0; row < 8; ++row)
+  {
+    for (int col = 0; col < 6; ++col)
+    {
+      cv::rectangle(image, cv::Rect(330 + 40 * col, 40 + 40 * row, 40, 40), cv::Scalar::all((row + col) % 2 ? 20 : 220),
+                    cv::FILLED);
+    }
+  }
+  EXPECT_TRUE(find(image).empty());
+  cv::RNG random(7);
+  random.fill(image, cv::RNG::NORMAL, 128, 60);
+  EXPECT_TRUE(find(image).empty());
+}
+
+TEST(Targets, noneInCirclesThatAreNotConcentric)
+{
+  cv::Mat image(400, 400, CV_8UC3, cv::Scalar::all(230));
+  cv::circle(image, {200, 200}, 150, cv::Scalar::all(30), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, {240, 180}, 90, cv::Scalar::all(230), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, {200, 200}, 40, cv::Scalar(30, 30, 200), cv::FILLED, cv::LINE_AA);
+  EXPECT_TRUE(find(image).empty());
+}
+
+TEST(Targets, survivesTinyImages)
+{
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 1), cv::Size(2, 200), cv::Size(33, 33)})
+  {
+    EXPECT_TRUE(find(cv::Mat(size, CV_8UC3, cv::Scalar::all(90))).empty());
+  }
+  outdoor_omr::Frame frame;
+  EXPECT_TRUE(outdoor_omr::findTargets(frame, {}, Settings()).empty());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
