@@ -5,7 +5,7 @@ import os
 import re
 import sys
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 
 ROS = re.compile(r"\bros::|\bROS_[A-Z]|\b(sensor|std|geometry|visualization|diagnostic)_msgs\b|\bcv_bridge\b"
                  r"|\bimage_transport\b|\bnodelet\b|#include <(ros|tf2?)\w*/|outdoor_omr/[A-Z]\w*\.h")
