@@ -10,5 +10,7 @@ foreach(source IN LISTS sources)
   string(REGEX REPLACE "#include \"[^\"]*\"" "" content "${content}")
   string(APPEND text "R\"CL(#line 1 \"kernels/${name}\"\n${content})CL\",\n")
 endforeach()
-string(APPEND text "};\nconst unsigned KERNEL_SOURCE_COUNT = sizeof(KERNEL_SOURCES) / sizeof(KERNEL_SOURCES[0]);\n}  // namespace outdoor_omr\n")
+string(APPEND text
+  "};\nconst unsigned KERNEL_SOURCE_COUNT = sizeof(KERNEL_SOURCES) / sizeof(KERNEL_SOURCES[0]);\n"
+  "}  // namespace outdoor_omr\n")
 file(WRITE "${OUTPUT}" "${text}")

@@ -1,5 +1,5 @@
-// Colour Sobel edges (paper, section 3.1): the largest |gx| + |gy| of B, G and R above the threshold makes an edge pixel;
-// borders replicated. The result is the region mask of mask.cl.
+// Colour Sobel edges (paper, section 3.1): the largest |gx| + |gy| of B, G and R above the threshold makes an edge
+// pixel; borders replicated. The result is the region mask of mask.cl.
 
 #include "mask.cl"
 
@@ -20,7 +20,7 @@ INLINE short16 magnitude(short16 value)
   return (value ^ sign) - sign;
 }
 
-/** @param inner whether the 16 pixels from x on have neighbours on both sides: a constant, so that no branch is left. */
+/** @param inner whether the 16 pixels from x on have neighbours on both sides; constant, so that no branch is left. */
 INLINE SobelRow sobelRow(global const uchar* row, int x, int width, bool inner)
 {
   uchar bytes[54];

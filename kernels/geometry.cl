@@ -1,7 +1,7 @@
-// How the work is cut. Every kernel is launched in work-groups of LANES lanes; the lanes of a group share one row, strip
-// of rows or column of words and walk it with the stride LANES. A CPU gets LANES = 1 and runs plain loops (PoCL: a group
-// costs 4 ns, its own work-item loop vectorises byte kernels 10 to 40 times worse than a loop over the row); a GPU gets
-// LANES = 64, a wavefront.
+// How the work is cut. Every kernel is launched in work-groups of LANES lanes; the lanes of a group share one row,
+// strip of rows or column of words and walk it with the stride LANES. A CPU gets LANES = 1 and runs plain loops (PoCL:
+// a group costs 4 ns, its own work-item loop vectorises byte kernels 10 to 40 times worse than a loop over the row); a
+// GPU gets LANES = 64, a wavefront.
 
 #ifndef OUTDOOR_OMR_GEOMETRY_CL
 #define OUTDOOR_OMR_GEOMETRY_CL

@@ -2,7 +2,8 @@
 
 #include "mask.cl"
 
-/** Writes value, value + slope, ... to pixels x .. end - 1; may overshoot within the row, which is written left to right. */
+/** Writes value, value + slope, ... to pixels x .. end - 1; may overshoot within the row, which is written left to
+ * right. */
 INLINE void fillPixels(global int* row, int width, int x, int end, int value, int slope)
 {
   int16 values = (int16)value + (int16)slope * (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);

@@ -1,10 +1,11 @@
-// Second pass over the regions whose area is asked for: distances to the centre (paper, Table 1: mean size, mean radius)
-// and the list that goes back to the host.
+// Second pass over the regions whose area is asked for: distances to the centre (paper, Table 1: mean size, mean
+// radius) and the list that goes back to the host.
 
 #include "geometry.cl"
 #include "record.cl"
 
-/** Sum of the distances of the pixels start .. end - 1 of a row to a point: dx to the first pixel, dy to the row [px]. */
+/** Sum of the distances of the pixels start .. end - 1 of a row to a point: dx to the first pixel, dy to the row [px].
+ */
 INLINE float runDistance(int length, float dx, float dy)
 {
   const int16 ramp = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -24,8 +25,8 @@ INLINE float runDistance(int length, float dx, float dy)
 /** One group a row. The centre is taken relative to the bounding box: a float holds it to 1e-4 px even at 8K. */
 kernel GROUP void sumDistances(global const ushort* restrict runs, global const int* restrict row_first,
                                global const int* restrict row_runs, global const int* restrict run_slot,
-                               global const int* restrict parent, global const int* restrict slot_record,
-                               uint min_area, uint max_area, global RegionSums* records, uint capacity,
+                               global const int* restrict parent, global const int* restrict slot_record, uint min_area,
+                               uint max_area, global RegionSums* records, uint capacity,
                                global const Counters* counters)
 {
   if (counters->records > capacity)

@@ -1,7 +1,7 @@
 // Runs: the maximal horizontal rows of region pixels. Every run belongs to a slot, a node of the union-find; the strips
-// of a CPU unite their own runs without atomics, so that a slot is a part of a region within one strip, whereas on a GPU
-// every run is a slot. Runs and slots of strip s start at index s * strip_rows * runsOf(width): no prefix sum is needed
-// and the order of the indices is the reading order.
+// of a CPU unite their own runs without atomics, so that a slot is a part of a region within one strip, whereas on a
+// GPU every run is a slot. Runs and slots of strip s start at index s * strip_rows * runsOf(width): no prefix sum is
+// needed and the order of the indices is the reading order.
 
 #include "mask.cl"
 
@@ -32,9 +32,8 @@ INLINE int stripRoot(global int* run_slot, int run)
  * @param strip_slots number of slots of each strip
  */
 kernel GROUP void runsStrip(global const ulong* restrict mask, int width, int height, int strip_rows,
-                            global ushort* restrict runs, global int* restrict row_first,
-                            global int* restrict row_runs, global ushort* restrict rank,
-                            global int* restrict run_slot, global int* restrict parent,
+                            global ushort* restrict runs, global int* restrict row_first, global int* restrict row_runs,
+                            global ushort* restrict rank, global int* restrict run_slot, global int* restrict parent,
                             global int* restrict slot_label, global int* restrict strip_slots)
 {
   const int words = wordsOf(width);
@@ -121,11 +120,12 @@ kernel GROUP void runsStrip(global const ulong* restrict mask, int width, int he
   strip_slots[get_group_id(0)] = slot - first_slot;
 }
 
-/** GPU: finds the runs of a row; every run is a slot of its own. One group a row; arguments as above, strips of a row. */
+/** GPU: finds the runs of a row; every run is a slot of its own. One group a row; arguments as above, strips of a row.
+ */
 kernel GROUP void runsWord(global const ulong* restrict mask, int width, global ushort* restrict runs,
                            global int* restrict row_first, global int* restrict row_runs, global ushort* restrict rank,
-                           global int* restrict run_slot, global int* restrict parent,
-                           global int* restrict slot_label, global int* restrict strip_slots)
+                           global int* restrict run_slot, global int* restrict parent, global int* restrict slot_label,
+                           global int* restrict strip_slots)
 {
   local int counts[LANES];
   const int lane = get_local_id(0);

@@ -7,7 +7,7 @@
 /** Longest run whose channel sums fit 21 bits each: 8192 * 255 < 2^21. */
 #define LONGEST_PIECE 8192
 
-/** Coordinate sums and bounding box of the pixels start .. end - 1 of row y. */
+/** Coordinate sums of the pixels start .. end - 1 of row y. */
 typedef struct
 {
   ulong x, y, xx, xy, yy;

@@ -1,6 +1,6 @@
-// The paper's parallel filling (section 3.2): every pixel starts with its own index; sweeps to the right, left, down and
-// up hand the smaller index on, within regions, until nothing changes. One lane a row or a column. The rows and columns
-// of one launch are independent, so the result of each round is, too.
+// The paper's parallel filling (section 3.2): every pixel starts with its own index; sweeps to the right, left, down
+// and up hand the smaller index on, within regions, until nothing changes. One lane a row or a column. The rows and
+// columns of one launch are independent, so the result of each round is, too.
 
 #include "mask.cl"
 #include "record.cl"
@@ -93,7 +93,8 @@ kernel GROUP void sweepColumns(global const ulong* restrict mask, int width, int
   }
 }
 
-/** Brings the settled labels into the union-find: every run points to the run that its label lies in. One group a row. */
+/** Brings the settled labels into the union-find: every run points to the run that its label lies in. One group a row.
+ */
 kernel GROUP void adoptLabels(global const ulong* restrict mask, int width, global const int* restrict labels,
                               global const ushort* restrict runs, global const int* restrict row_first,
                               global const int* restrict row_runs, global const ushort* restrict rank,
