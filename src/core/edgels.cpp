@@ -65,6 +65,7 @@ void computeGradients(const cv::Mat& bgr, int tile_x, int tile_y, GradientTile& 
   }
   std::array<std::int16_t, WIDTH> gx;
   std::array<std::int16_t, WIDTH> gy;
+  std::array<int, WIDTH> squared;
   for (int i = 0; i < GRADIENTS; ++i)
   {
     for (int j = 0; j < WIDTH; ++j)
@@ -73,19 +74,22 @@ void computeGradients(const cv::Mat& bgr, int tile_x, int tile_y, GradientTile& 
                                         slope[i + 4][j]);
       gy[j] = static_cast<std::int16_t>(smooth[i + 4][j] - smooth[i][j] + 2 * (smooth[i + 3][j] - smooth[i + 1][j]));
     }
+    for (int j = 0; j < WIDTH; ++j)
+    {
+      squared[j] = gx[j] * gx[j] + gy[j] * gy[j];
+    }
     for (int j = 0; j < GRADIENTS; ++j)
     {
-      int best = -1;
-      int channel = 0;
-      for (int c = CHANNELS * j; c < CHANNELS * j + CHANNELS; ++c)
-      {
-        const int squared = gx[c] * gx[c] + gy[c] * gy[c];
-        channel = squared > best ? c : channel;
-        best = std::max(best, squared);
-      }
-      tile.x[i][j] = gx[channel];
-      tile.y[i][j] = gy[channel];
-      tile.magnitude[i][j] = std::sqrt(static_cast<float>(best)) / KERNEL_SUM;
+      const int c = CHANNELS * j;
+      const int first = squared[c + 1] > squared[c] ? c + 1 : c;
+      const int strongest = squared[c + 2] > squared[first] ? c + 2 : first;
+      tile.x[i][j] = gx[strongest];
+      tile.y[i][j] = gy[strongest];
+      tile.magnitude[i][j] = static_cast<float>(squared[strongest]);
+    }
+    for (float& magnitude : tile.magnitude[i])
+    {
+      magnitude = std::sqrt(magnitude) / KERNEL_SUM;
     }
   }
 }

@@ -57,6 +57,7 @@ std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
   {
     std::array<Values, 3> values;
     int count = 0;
+    cv::Vec3f sum;  // of the sizes: where it is small, the median is smaller
     for (int angle = 0; angle < ANGLES; ++angle)
     {
       if (i + reach < profile.inside[angle])
@@ -67,13 +68,14 @@ std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
         for (int c = 0; c < 3; ++c)
         {
           values[c][count] = (outer[c] - inner[c]) * scale;
+          sum[c] += std::abs(values[c][count]);
         }
         ++count;
       }
     }
     for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
     {
-      slopes[i][c] = median(values[c], count);
+      slopes[i][c] = sum[c] > .5 * MIN_SLOPE * count ? median(values[c], count) : 0;
     }
   }
   return slopes;

@@ -22,7 +22,7 @@ constexpr double USUAL_PERSPECTIVE = 0.05;
 constexpr double LARGEST_PERSPECTIVE = 0.35;
 constexpr double LARGEST_ASPECT = 5;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
-constexpr double CONVERGED = 1e-4;    // relative change of the cost
+constexpr double CONVERGED = 1e-3;    // relative change of the cost
 
 /** Distance of a point to its circle [px], and its derivatives. */
 double residual(const RingFamily& family, const std::vector<double>& radii, const BoundaryPoint& point,

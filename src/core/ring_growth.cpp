@@ -18,6 +18,8 @@ constexpr int MAX_ROUNDS = 8;
 constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
+constexpr double LARGEST_RMS = 1;             // of the edgels of the first boundary [px]
+constexpr double LARGEST_RELATIVE_RMS = .02;  // more, relative to its radius: perspective, bent sheets
 constexpr double CELL = AngularSupport::CELL;
 
 struct Peak
@@ -151,7 +153,8 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
   if (!rings.radii.empty())
   {
     collectRadialEdgels(map, rings.family, rings.radii.back() * 1.2 + 3, COARSE_COSINE, edgels);
-    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, COARSE_POINTS, rings))
+    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, COARSE_POINTS, rings) ||
+        rings.rms > LARGEST_RMS + LARGEST_RELATIVE_RMS * rings.radii.back())
     {
       return false;
     }

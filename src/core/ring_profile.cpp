@@ -9,7 +9,7 @@ namespace outdoor_omr
 namespace
 {
 constexpr double FINEST_STEP = .5;  // [px]
-constexpr int MAX_SAMPLES = 400;    // a ray
+constexpr int MAX_SAMPLES = 250;    // a ray
 // Added before the logarithm [grey levels]: below it sensor noise and black level, not light, decide.
 constexpr float DARK_LEVEL = 24;
 constexpr int LEVELS_PER_GREY = 4;

@@ -65,7 +65,7 @@ std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions)
     }
   }
   std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const RingSeed& left, const RingSeed& right) { return left.radius > right.radius; });
+                   [](const RingSeed& left, const RingSeed& right) { return left.radius < right.radius; });
   return seeds;
 }
 

@@ -18,7 +18,7 @@ struct RingSeed
 
 /**
  * Regions that are elliptic disks or annuli by their area, second moments and box (paper, section 3.3: which regions
- * are circular is decided from the region data); the largest first.
+ * are circular is decided from the region data); the smallest first: a target grows from its inside, and costs less so.
  */
 std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions);
 

@@ -14,7 +14,7 @@ namespace outdoor_omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 150;             // that are looked at
+constexpr int MAX_PIECES = 50;              // that are looked at
 constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
 constexpr double MIN_UNREAD_DIAMETER = 30;  // of a target of three rings with unknown ones [px]
 
