@@ -22,6 +22,7 @@ struct CornerLook
 enum class RimLook
 {
   outer_corner,  ///< one quadrant dark, the other three alike light: a dark square in the margin
+  outer_edge,    ///< only the edge of the dark square, and none of the light one beside it; under a shadow's edge
   inner_corner,  ///< four squares: the board goes on
   unclear
 };
@@ -60,7 +61,7 @@ class CornerLooker
    * @param dark_u, dark_v +1 or -1: the quadrant of the dark square.
    * @param contrast       of the known corners near by [grey levels].
    */
-  RimLook lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const;
+  RimLook lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, bool side_is_row, float contrast) const;
 
   int looksLeft() const
   {

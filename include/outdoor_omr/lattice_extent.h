@@ -23,6 +23,7 @@ struct BorderLine
   int places = 0;   ///< outer corners forecast inside the picture
   int outside = 0;  ///< outer corners forecast outside the picture
   int seen = 0;     ///< those of them that are there
+  int edges = 0;    ///< places where only the edge of a dark square is there
   int goes_on = 0;  ///< places where four squares meet instead
 
   /** The board ends at this line. */

@@ -188,6 +188,34 @@ bool haveOneColor(const cv::Mat& bgr, const LocalFrame& frame, int dark)
   return std::max({spread[0], spread[1], spread[2]}) < MAX_DIFFERENCE;
 }
 
+/**
+ * Whether a dark square ends at the border line and the light one beside it does not, judged by ratios of samples close
+ * to each other on both sides of the line: a shadow's edge near by does not disturb it.
+ *
+ * @param along, across unit steps in squares from the node: to the dark square along the border, and into the board.
+ */
+bool endsAtLine(const PyramidView& view, const LocalFrame& frame, const cv::Point2f& along, const cv::Point2f& across)
+{
+  constexpr float DEPTH = 0.2F;       // squares
+  constexpr float MIN_EDGE = 0.4F;    // logarithm of the ratio
+  constexpr float MAX_FLAT = 0.2F;
+  const auto step = [&](float side, float depth) {
+    const cv::Point2f offset = side * along + depth * across;
+    return logarithm(view.sample(frame.at(offset.x, offset.y)));
+  };
+  for (const float side : {0.25F, 0.45F})
+  {
+    const float dark = step(side, DEPTH);
+    const float light = step(-side, DEPTH);
+    if (step(side, -DEPTH) - dark < MIN_EDGE || light - dark < MIN_EDGE ||
+        std::abs(step(-side, -DEPTH) - light) > MAX_FLAT)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool isInside(const cv::Mat& image, const cv::Point2f& point, float margin)
 {
   return point.x >= margin && point.y >= margin && point.x < image.cols - 1 - margin &&
@@ -406,7 +434,7 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   return result;
 }
 
-RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const
+RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, bool side_is_row, float contrast) const
 {
   // Half as far out as the ring of an inner corner: a board's margin may be as narrow as half a square.
   constexpr float INNER = 0.25F;
@@ -446,6 +474,13 @@ RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dar
       bestCorrelation(ring, pattern) > MIN_CORRELATION)
   {
     return RimLook::inner_corner;
+  }
+  const auto u = static_cast<float>(dark_u);
+  const auto v = static_cast<float>(dark_v);
+  const bool ends = side_is_row ? endsAtLine(view, predicted, {u, 0}, {0, v}) : endsAtLine(view, predicted, {0, v}, {u, 0});
+  if (ends && haveOneColor(frame_.bgr, predicted, dark))
+  {
+    return RimLook::outer_edge;
   }
   return RimLook::unclear;
 }

@@ -140,8 +140,9 @@ BorderLine lookAtLine(const Lattice& lattice, CornerLooker& looker, Side side, i
     ++result.places;
     const int dark_u = isRow(side) ? across : in;
     const int dark_v = isRow(side) ? in : across;
-    const RimLook look = looker.lookAtRim(predicted, dark_u, dark_v, contrast);
+    const RimLook look = looker.lookAtRim(predicted, dark_u, dark_v, isRow(side), contrast);
     result.seen += look == RimLook::outer_corner ? 1 : 0;
+    result.edges += look == RimLook::outer_edge ? 1 : 0;
     result.goes_on += look == RimLook::inner_corner ? 1 : 0;
   }
   return result;
@@ -246,7 +247,9 @@ void trim(Lattice& lattice, CornerLooker& looker)
 SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& border)
 {
   constexpr int MIN_BORDER = 2;  // outer corners, the two of one rim square; something else gave one at most
+  // Of the last line of inner corners; the more must be there, the less is seen of the border.
   constexpr float MIN_LINE_SHARE = 0.5F;
+  constexpr float MIN_LINE_SHARE_ALONE = 0.8F;
   if (border.ends())
   {
     return SideEvidence::border;
@@ -255,10 +258,11 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   {
     return SideEvidence::cut;
   }
+  const int seen = border.seen + border.edges;
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
-  const bool line_seen = found >= MIN_LINE_SHARE * static_cast<float>(lineLength(lattice, side));
-  return border.goes_on <= 1 + border.seen / 2 && (border.seen >= MIN_BORDER || line_seen) ? SideEvidence::rim
-                                                                                           : SideEvidence::none;
+  const float share = found / static_cast<float>(lineLength(lattice, side));
+  const bool is_last = border.seen >= MIN_BORDER || share >= (seen > 0 ? MIN_LINE_SHARE : MIN_LINE_SHARE_ALONE);
+  return is_last && border.goes_on <= 1 + border.seen / 2 ? SideEvidence::rim : SideEvidence::none;
 }
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
@@ -354,7 +358,7 @@ void splitAtBorders(Lattice& lattice, CornerLooker& looker)
       {
         continue;
       }
-      if (border.seen >= 0.6 * border.places || (border.mayEnd() && inner_corners == 0))
+      if (border.seen >= 0.7 * border.places || (border.mayEnd() && inner_corners == 0))
       {
         while (lineIndex(lattice, side, 0) != line + inwards(side))
         {
