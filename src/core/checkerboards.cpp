@@ -222,6 +222,7 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
     search(groupSaddlePoints(frame, level, faint, map));
   }
   std::vector<Checkerboard> boards;
+  boards.reserve(candidates.size());
   for (Candidate& candidate : candidates)
   {
     boards.push_back(finish(candidate, frame, regions));

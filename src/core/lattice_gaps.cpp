@@ -92,7 +92,7 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
         model.fit(lattice, LatticeModel::homography, 0) &&
         model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
     const float contrast = lattice.medianContrast();
-    int reach[4];
+    int reach[4] = {};
     for (const Side side : SIDES)
     {
       reach[side] = lookAtBorder(lattice, looker.frame(), side, 1).ends() ? 0 : REACH;
