@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "outdoor_omr/corner_look.h"
+#include "outdoor_omr/rim_look.h"
 #include "render.h"
 
 using outdoor_omr::CornerLook;
@@ -90,12 +91,24 @@ TEST(CornerLook, theRimTellsOuterFromInnerCorners)
   Render render({300, 300});
   render.addBoard(5, 7, upright(20));
   const Frame frame = outdoor_omr::makeFrame(render.picture());
-  const CornerLooker looker(frame, BUDGET);
+  const auto look = [&](double col, double row, int dark_u, int dark_v) {
+    return lookAtRim(frame, {frameAt(upright(20), col, row), dark_u, dark_v, true}, 100);
+  };
   // (3, 5) lies on the lower border; the black square (2, 4) is towards -u, -v.
-  EXPECT_EQ(RimLook::outer_corner, looker.lookAtRim(frameAt(upright(20), 3, 5), -1, -1, 100));
-  EXPECT_EQ(RimLook::inner_corner, looker.lookAtRim(frameAt(upright(20), 3, 4), 1, -1, 100));
-  EXPECT_EQ(RimLook::unclear, looker.lookAtRim(frameAt(upright(20), 3, 5), 1, -1, 100));
-  EXPECT_EQ(RimLook::unclear, looker.lookAtRim(frameAt(upright(20), 500, 500), 1, -1, 100));
+  EXPECT_EQ(RimLook::outer_corner, look(3, 5, -1, -1));
+  EXPECT_EQ(RimLook::inner_corner, look(3, 4, 1, -1));
+  EXPECT_EQ(RimLook::unclear, look(3, 5, 1, -1));
+  EXPECT_EQ(RimLook::unclear, look(500, 500, 1, -1));
+}
+
+TEST(CornerLook, aColouredThingOverTheRimIsNoMargin)
+{
+  Render render({300, 300});
+  render.addBoard(5, 7, upright(20));
+  const outdoor_omr::RimPlace place{frameAt(upright(20), 3, 5), -1, -1, true};
+  render.addPolygon({{0, 141}, {300, 141}, {300, 200}, {0, 200}}, cv::Scalar(90, 240, 230));
+  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  EXPECT_NE(RimLook::outer_corner, lookAtRim(frame, place, 100));
 }
 
 TEST(CornerLook, neverBeyondTheBudgetOrThePicture)

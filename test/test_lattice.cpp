@@ -5,6 +5,7 @@
 
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/lattice_extent.h"
+#include "outdoor_omr/lattice_gaps.h"
 #include "outdoor_omr/lattice_model.h"
 #include "render.h"
 

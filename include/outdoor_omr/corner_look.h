@@ -18,14 +18,6 @@ struct CornerLook
   float correlation = 0;  ///< of the ring with four alternating quadrants [0, 1], in grey levels or their logarithm
 };
 
-/** What the image shows where a board would end. */
-enum class RimLook
-{
-  outer_corner,  ///< one quadrant dark, the other three alike light: a dark square in the margin
-  inner_corner,  ///< four squares: the board goes on
-  unclear
-};
-
 /** What is asked of a corner. */
 struct CornerQuery
 {
@@ -54,14 +46,6 @@ class CornerLooker
   /** Not found, without a look at the image, when the budget is spent. */
   CornerLook look(const LocalFrame& predicted, const CornerQuery& query);
 
-  /**
-   * Looks where a dark square of the rim would meet the margin, without refinement.
-   *
-   * @param dark_u, dark_v +1 or -1: the quadrant of the dark square.
-   * @param contrast       of the known corners near by [grey levels].
-   */
-  RimLook lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const;
-
   int looksLeft() const
   {
     return budget_;
@@ -78,22 +62,6 @@ class CornerLooker
  private:
   const Frame& frame_;
   int budget_;
-};
-
-/** A prediction on the level of the pyramid where its square is at most 24 px wide; squares under 5 px use the
- * unfiltered image: recall at 2.5 to 3.5 px grows from 73 to 91 % (120 boards at distance). */
-struct PyramidView
-{
-  PyramidView(const Frame& frame, float square_height);
-
-  float sample(const cv::Point2f& point) const
-  {
-    return sampleGrey(*grey, point.x * scale, point.y * scale);
-  }
-
-  const cv::Mat* grey;
-  int level = 0;
-  float scale = 1;  ///< pixels of the level per pixel of the full image
 };
 
 }  // namespace outdoor_omr

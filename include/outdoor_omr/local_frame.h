@@ -45,6 +45,13 @@ inline float squaresBetween(const LocalFrame& frame, const cv::Point2f& point)
   return std::max(std::abs(cross(offset, frame.v)), std::abs(cross(frame.u, offset))) / std::abs(area);
 }
 
+/** Whether a point lies in the image, at least the margin from its border [px]. */
+inline bool isInside(const cv::Mat& image, const cv::Point2f& point, float margin)
+{
+  return point.x >= margin && point.y >= margin && point.x < static_cast<float>(image.cols - 1) - margin &&
+         point.y < static_cast<float>(image.rows - 1) - margin;
+}
+
 /** Grey value between pixels of a CV_8UC1 image of at least 2 x 2, the border continued outwards. */
 inline float sampleGrey(const cv::Mat& grey, float x, float y)
 {

@@ -125,6 +125,7 @@ std::vector<cv::Point2f> boardOutline(const Lattice& lattice)
 {
   const cv::Rect box(lattice.box.x - 1, lattice.box.y - 1, lattice.box.width + 1, lattice.box.height + 1);
   std::vector<cv::Point2f> outline;
+  outline.reserve(2 * (box.width + box.height));
   for (int j = 0; j < box.width; ++j)
   {
     outline.push_back(positionOf(lattice, box.y, box.x + j));

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "outdoor_omr/border.h"
 #include "outdoor_omr/checkerboard_order.h"
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/corners.h"
 #include "outdoor_omr/groups.h"
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/lattice_extent.h"
+#include "outdoor_omr/lattice_gaps.h"
 #include "outdoor_omr/regularity.h"
 #include "outdoor_omr/saddle_points.h"
 #include "outdoor_omr/search_map.h"
@@ -100,7 +102,7 @@ bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
   return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
          std::any_of(SIDES.begin(), SIDES.end(),
-                     [&](Side side) { return lookAtBorder(lattice, looker, side, 1).seen >= 2; });
+                     [&](Side side) { return lookAtBorder(lattice, looker.frame(), side, 1).seen >= 2; });
 }
 
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
@@ -112,8 +114,9 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border);
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
-         evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) && (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on &&
-         height >= MIN_SQUARE && (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
+         evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
+         (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on && height >= MIN_SQUARE &&
+         (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
 /** Number of the lattice's corners that lie on the board of the outline. */
@@ -170,7 +173,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     jumpGaps(lattice, looker);
     fillHoles(lattice, looker);
-    splitAtBorders(lattice, looker);
+    splitAtBorders(lattice, looker.frame());
     dropOutliers(lattice);
     const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
     if (!isBoard(lattice, sides))
@@ -219,6 +222,7 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
     search(groupSaddlePoints(frame, level, faint, map));
   }
   std::vector<Checkerboard> boards;
+  boards.reserve(candidates.size());
   for (Candidate& candidate : candidates)
   {
     boards.push_back(finish(candidate, frame, regions));

@@ -1,123 +1,18 @@
 #include "outdoor_omr/corner_look.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+
+#include "outdoor_omr/corner_ring.h"
 
 namespace outdoor_omr
 {
 namespace
 {
-constexpr float LEVEL_SQUARE_HEIGHT = 24;    // px; above it a level of half the size shows the square as well
-constexpr float RAW_SQUARE_HEIGHT = 5;       // px; below it the 3x3 filter costs recall
 constexpr float MIN_SQUARE_HEIGHT = 1.5F;    // px; the pixel grid resolves no less
 constexpr float MIN_GAP = 3;                 // grey levels between the darkest light and the lightest dark quadrant
 constexpr float MIN_GAP_SHARE = 0.15F;       // of the contrast
 constexpr float MIN_CONTRAST_SHARE = 0.25F;  // of the neighbours' contrast; half of it is a shadow's edge
-constexpr float LOG_OFFSET = 12;  // grey levels; keeps the noise of the darkest pixels small in the logarithm
-
-constexpr int QUADRANTS = 4;  // (+u +v), (-u +v), (-u -v), (+u -v)
-constexpr int QUADRANT_SAMPLES = 6;
-constexpr int RING_SAMPLES = QUADRANTS * QUADRANT_SAMPLES;
-constexpr std::array<float, QUADRANTS> QUADRANT_U = {1, -1, -1, 1};
-constexpr std::array<float, QUADRANTS> QUADRANT_V = {1, 1, -1, -1};
-
-const std::array<float, 257>& logarithms()
-{
-  static const std::array<float, 257> TABLE = [] {
-    std::array<float, 257> table;
-    for (std::size_t i = 0; i < table.size(); ++i)
-    {
-      table[i] = std::log(static_cast<float>(i) + LOG_OFFSET);
-    }
-    return table;
-  }();
-  return TABLE;
-}
-
-float logarithm(float grey)
-{
-  const auto index = static_cast<std::size_t>(grey);
-  const float rest = grey - static_cast<float>(index);
-  return logarithms()[index] * (1 - rest) + logarithms()[index + 1] * rest;
-}
-
-/** Samples around a corner, quadrant by quadrant. */
-using Ring = std::array<float, RING_SAMPLES>;
-
-/** 25, 45 and 65 degrees from the lattice lines on two circles; at least 1 px off the lines, where edges are blurred.
- */
-Ring sampleRing(const PyramidView& view, const LocalFrame& frame, float inner_radius, float outer_radius)
-{
-  constexpr float ANGLES[3][2] = {{0.9063F, 0.4226F}, {0.7071F, 0.7071F}, {0.4226F, 0.9063F}};
-  const float least_u = std::min(0.5F, 1 / (length(frame.u) * view.scale));
-  const float least_v = std::min(0.5F, 1 / (length(frame.v) * view.scale));
-  float u[QUADRANT_SAMPLES];
-  float v[QUADRANT_SAMPLES];
-  for (int i = 0; i < QUADRANT_SAMPLES; ++i)
-  {
-    const float radius = i % 2 == 0 ? inner_radius : outer_radius;
-    u[i] = std::max(ANGLES[i / 2][0] * radius, least_u);
-    v[i] = std::max(ANGLES[i / 2][1] * radius, least_v);
-  }
-  Ring ring;
-  for (int q = 0; q < QUADRANTS; ++q)
-  {
-    for (int i = 0; i < QUADRANT_SAMPLES; ++i)
-    {
-      ring[q * QUADRANT_SAMPLES + i] = view.sample(frame.at(QUADRANT_U[q] * u[i], QUADRANT_V[q] * v[i]));
-    }
-  }
-  return ring;
-}
-
-/** Mean of the two middle samples. */
-float quadrantMedian(const Ring& ring, int quadrant)
-{
-  std::array<float, QUADRANT_SAMPLES> values;
-  std::copy_n(ring.begin() + quadrant * QUADRANT_SAMPLES, QUADRANT_SAMPLES, values.begin());
-  const auto order = [&](int a, int b) {
-    const float low = std::min(values[a], values[b]);
-    values[b] = std::max(values[a], values[b]);
-    values[a] = low;
-  };
-  // Sorting network of six; the last exchange, of the two in the middle, does not matter.
-  order(1, 2), order(4, 5), order(0, 2), order(3, 5), order(0, 1), order(3, 4), order(2, 5), order(0, 3), order(1, 4),
-      order(2, 4), order(1, 3);
-  return (values[2] + values[3]) / 2;
-}
-
-/** Normalised correlation of the ring with a template of one value a quadrant, in grey levels or logarithms. */
-template <typename Transform>
-float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern, const Transform& transform)
-{
-  float sum = 0;
-  float squares = 0;
-  float product = 0;
-  float pattern_sum = 0;
-  float pattern_squares = 0;
-  for (int q = 0; q < QUADRANTS; ++q)
-  {
-    float quadrant = 0;
-    for (int i = 0; i < QUADRANT_SAMPLES; ++i)
-    {
-      const float value = transform(ring[q * QUADRANT_SAMPLES + i]);
-      quadrant += value;
-      squares += value * value;
-    }
-    sum += quadrant;
-    product += pattern[q] * quadrant;
-    pattern_sum += pattern[q] * QUADRANT_SAMPLES;
-    pattern_squares += pattern[q] * pattern[q] * QUADRANT_SAMPLES;
-  }
-  constexpr float N = RING_SAMPLES;
-  const float variance = (squares - sum * sum / N) * (pattern_squares - pattern_sum * pattern_sum / N);
-  return variance > 1e-4F ? (product - sum * pattern_sum / N) / std::sqrt(variance) : 0.F;
-}
-
-float bestCorrelation(const Ring& ring, const std::array<float, QUADRANTS>& pattern)
-{
-  return std::max(correlation(ring, pattern, [](float grey) { return grey; }), correlation(ring, pattern, logarithm));
-}
-
 /** The ring's verdict on a corner of four alternating squares. */
 struct Verdict
 {
@@ -148,7 +43,7 @@ Verdict judgeRing(const PyramidView& view, const LocalFrame& frame)
   if (verdict.gap > MIN_GAP)
   {
     const auto s = static_cast<float>(verdict.sign);
-    verdict.correlation = bestCorrelation(ring, {s, -s, s, -s});
+    verdict.correlation = ringCorrelation(ring, {s, -s, s, -s});
   }
   return verdict;
 }
@@ -158,40 +53,6 @@ bool accepts(const CornerQuery& query, const Verdict& verdict)
   return (query.sign == 0 || verdict.sign == query.sign) &&
          verdict.gap > std::max(MIN_GAP, MIN_GAP_SHARE * verdict.contrast) && verdict.correlation > query.correlation &&
          verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
-}
-
-/** Whether all quadrants but the dark one have one hue: a coloured thing over the rim is as light as the margin, but it
- * is not the margin. */
-bool haveOneColor(const cv::Mat& bgr, const LocalFrame& frame, int dark)
-{
-  constexpr float OFFSET = 0.3F;         // squares
-  constexpr float MAX_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
-  cv::Vec3f least = cv::Vec3f::all(1);
-  cv::Vec3f most = cv::Vec3f::all(0);
-  for (int q = 0; q < QUADRANTS; ++q)
-  {
-    const cv::Point2f point = frame.at(OFFSET * QUADRANT_U[q], OFFSET * QUADRANT_V[q]);
-    const cv::Point pixel(cvRound(point.x), cvRound(point.y));
-    if (q == dark || !cv::Rect(cv::Point(), bgr.size()).contains(pixel))
-    {
-      continue;
-    }
-    const cv::Vec3f color = bgr.at<cv::Vec3b>(pixel);
-    const cv::Vec3f shares = color * (1 / std::max(1.F, color[0] + color[1] + color[2]));
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      least[channel] = std::min(least[channel], shares[channel]);
-      most[channel] = std::max(most[channel], shares[channel]);
-    }
-  }
-  const cv::Vec3f spread = most - least;
-  return std::max({spread[0], spread[1], spread[2]}) < MAX_DIFFERENCE;
-}
-
-bool isInside(const cv::Mat& image, const cv::Point2f& point, float margin)
-{
-  return point.x >= margin && point.y >= margin && point.x < image.cols - 1 - margin &&
-         point.y < image.rows - 1 - margin;
 }
 
 /**
@@ -350,16 +211,6 @@ void refineDownwards(const Frame& frame, int level, float square_height, cv::Poi
 }
 }  // namespace
 
-PyramidView::PyramidView(const Frame& frame, float square_height)
-    : grey(square_height < RAW_SQUARE_HEIGHT ? &frame.raw_grey : frame.grey.data())
-{
-  while (level + 1 < static_cast<int>(frame.grey.size()) && square_height * scale > LEVEL_SQUARE_HEIGHT)
-  {
-    grey = &frame.grey[++level];
-    scale /= 2;
-  }
-}
-
 CornerLooker::CornerLooker(const Frame& frame, int budget) : frame_(frame), budget_(budget)
 {
 }
@@ -404,50 +255,6 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   result.correlation = verdict.correlation;
   result.found = accepts(query, verdict) && squaresBetween(predicted, corner.node) <= query.tolerance + 0.5F / height;
   return result;
-}
-
-RimLook CornerLooker::lookAtRim(const LocalFrame& predicted, int dark_u, int dark_v, float contrast) const
-{
-  // Half as far out as the ring of an inner corner: a board's margin may be as narrow as half a square.
-  constexpr float INNER = 0.25F;
-  constexpr float OUTER = 0.4F;
-  constexpr float MIN_CORRELATION = 0.9F;
-  constexpr float MIN_SHARE = 0.4F;   // of the contrast
-  constexpr float MAX_SPREAD = 0.4F;  // of the light squares, in contrasts
-  const float height = squareHeight(predicted);
-  if (height < MIN_SQUARE_HEIGHT || !isInside(frame_.raw_grey, predicted.node, 2))
-  {
-    return RimLook::unclear;
-  }
-  const PyramidView view(frame_, height);
-  const Ring ring = sampleRing(view, predicted, INNER, OUTER);
-  std::array<float, QUADRANTS> median;
-  int dark = 0;
-  for (int q = 0; q < QUADRANTS; ++q)
-  {
-    median[q] = quadrantMedian(ring, q);
-    dark = QUADRANT_U[q] * static_cast<float>(dark_u) > 0 && QUADRANT_V[q] * static_cast<float>(dark_v) > 0 ? q : dark;
-  }
-  const float beside_a = median[(dark + 1) % QUADRANTS];
-  const float opposite = median[(dark + 2) % QUADRANTS];
-  const float beside_b = median[(dark + 3) % QUADRANTS];
-  const float least_gap = std::max(MIN_GAP, MIN_SHARE * contrast);
-  std::array<float, QUADRANTS> pattern = {1, 1, 1, 1};
-  pattern[dark] = -1;
-  const float light = std::min({beside_a, beside_b, opposite});
-  if (light - median[dark] > least_gap && bestCorrelation(ring, pattern) > MIN_CORRELATION &&
-      std::max({beside_a, beside_b, opposite}) - light < MAX_SPREAD * (light - median[dark]) &&
-      haveOneColor(frame_.bgr, predicted, dark))
-  {
-    return RimLook::outer_corner;
-  }
-  pattern[(dark + 2) % QUADRANTS] = -1;
-  if (std::min(beside_a, beside_b) - std::max(median[dark], opposite) > least_gap &&
-      bestCorrelation(ring, pattern) > MIN_CORRELATION)
-  {
-    return RimLook::inner_corner;
-  }
-  return RimLook::unclear;
 }
 
 }  // namespace outdoor_omr

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <opencv2/core.hpp>
 
-#include "outdoor_omr/corner_look.h"
+#include "outdoor_omr/corner_ring.h"
 
 namespace outdoor_omr
 {

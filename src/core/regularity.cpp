@@ -48,6 +48,7 @@ std::vector<cv::Point2f> findOuterSquares(const std::vector<cv::Point2f>& center
     return {};
   }
   std::vector<cv::Point2f> outer;
+  outer.reserve(sharpest.size());
   for (const std::size_t vertex : sharpest)
   {
     outer.push_back(hull[vertex]);

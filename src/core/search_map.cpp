@@ -34,6 +34,7 @@ void SearchMap::addFailure(const cv::Point2f& point, float square_height, int fa
 void SearchMap::close(const std::vector<cv::Point2f>& outline)
 {
   std::vector<cv::Point> polygon;
+  polygon.reserve(outline.size());
   for (const cv::Point2f& point : outline)
   {
     polygon.emplace_back(cvRound(point.x / CELL), cvRound(point.y / CELL));

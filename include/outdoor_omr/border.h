@@ -1,0 +1,40 @@
+#ifndef OUTDOOR_OMR_BORDER_H
+#define OUTDOOR_OMR_BORDER_H
+
+#include "outdoor_omr/frame.h"
+#include "outdoor_omr/lattice.h"
+#include "outdoor_omr/lattice_side.h"
+
+namespace outdoor_omr
+{
+constexpr int BORDER_WINDOW = 3;  ///< nodes, of a prediction beside the lattice
+
+/** What is seen of a line of outer corners, where the rim squares of a board meet its margin. */
+struct BorderLine
+{
+  int places = 0;   ///< outer corners forecast inside the picture
+  int outside = 0;  ///< outer corners forecast outside the picture
+  int seen = 0;     ///< those of them that are there
+  int edges = 0;    ///< places where only the edge of a dark square is there
+  int goes_on = 0;  ///< places where four squares meet instead
+
+  /** The board ends at this line. */
+  bool ends() const;
+
+  /** So much speaks for it that nothing beyond it may be taken for the same board. */
+  bool mayEnd() const;
+};
+
+/**
+ * Looks at the places beside the lattice where the board would end.
+ *
+ * @param distance 1: the line beside the outermost inner corners; 0: that line itself; more: beyond it.
+ */
+BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, int distance);
+
+/** The same for any line. @param window of the predictions [nodes]. */
+BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window);
+
+}  // namespace outdoor_omr
+
+#endif

@@ -1,0 +1,59 @@
+#include "outdoor_omr/border.h"
+
+#include "outdoor_omr/rim_look.h"
+
+namespace outdoor_omr
+{
+bool BorderLine::mayEnd() const
+{
+  constexpr float MIN_SHARE = 0.35F;
+  return seen >= 3 && goes_on == 0 && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
+}
+
+bool BorderLine::ends() const
+{
+  constexpr float MIN_SHARE = 0.5F;
+  return seen >= 2 && seen > goes_on && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
+}
+
+BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window)
+{
+  BorderLine result;
+  const int start = lineStart(lattice, side);
+  const int end = start + lineLength(lattice, side);
+  const float contrast = lattice.medianContrast();
+  for (int t = start - 1; t <= end; ++t)
+  {
+    const Node node = nodeOnLine(side, line, t);
+    // The dark square inside the border is the one towards u and v with u * v = -sign.
+    const int in = inwards(side);
+    const int across = -lattice.sign(node.row, node.col) * in;
+    const bool is_corner_square = (t == start - 1 && across < 0) || (t == end && across > 0);
+    RimPlace place;
+    if (is_corner_square || !predictNode(lattice, node.row, node.col, window, place.predicted))
+    {
+      continue;
+    }
+    if (!isInside(frame.raw_grey, place.predicted.node, 2))
+    {
+      ++result.outside;
+      continue;
+    }
+    ++result.places;
+    place.along_row = isRow(side);
+    place.dark_u = isRow(side) ? across : in;
+    place.dark_v = isRow(side) ? in : across;
+    const RimLook look = lookAtRim(frame, place, contrast);
+    result.seen += look == RimLook::outer_corner ? 1 : 0;
+    result.edges += look == RimLook::outer_edge ? 1 : 0;
+    result.goes_on += look == RimLook::inner_corner ? 1 : 0;
+  }
+  return result;
+}
+
+BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, int distance)
+{
+  return lookAtLine(lattice, frame, side, lineIndex(lattice, side, distance), BORDER_WINDOW + distance);
+}
+
+}  // namespace outdoor_omr
