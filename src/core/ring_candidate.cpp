@@ -9,7 +9,7 @@ namespace
 {
 constexpr int MAX_ROUNDS = 4;
 
-// The classes of isTarget(). Its limits separate the candidates of 290 pictures with 560 targets from those of 97 with
+// The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
 // clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
 constexpr int MANY_RINGS = 4;
 constexpr double SMALL_RADIUS = 15;    // [px]
