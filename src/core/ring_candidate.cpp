@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ring_refinement.h"
+
 namespace outdoor_omr
 {
 namespace

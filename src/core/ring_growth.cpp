@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "ring_refinement.h"
 
 namespace outdoor_omr
 {
