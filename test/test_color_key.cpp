@@ -61,7 +61,7 @@ TEST(ColorKey, hazeLiftsAllRings)
 
 TEST(ColorKey, unknownWhereNoLetterFits)
 {
-  const LinearColor yellow(.7, .6, .04);
+  const LinearColor yellow(.7, .6, .04);  // as red as red, brighter than green
   EXPECT_EQ("P?P", readColorKey({BLACK, yellow, BLACK}, WHITE));
 }
 

@@ -1,4 +1,4 @@
-#include "ring_family.h"
+#include "ring_refinement.h"
 
 #include <gtest/gtest.h>
 

@@ -11,10 +11,6 @@ namespace
 {
 constexpr int MIN_AREA = 20;  // of a piece [px]
 constexpr int MIN_SIDE = 8;   // of its box [px]
-// Area over 4 pi times the root of the moments' determinant; the squares of checkerboards cost more than targets.
-constexpr double PARALLELOGRAM = .957;
-constexpr double PARALLELOGRAM_TOLERANCE = .009;
-constexpr int PARALLELOGRAM_MIN_AREA = 120;  // [px]
 constexpr int MAX_SIDE = 600;
 constexpr double MAX_ASPECT = 3.2;
 constexpr int MAX_EDGELS = 128;  // that vote
@@ -236,11 +232,7 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions)
   for (const Region& region : regions)
   {
     const int side = std::max(region.box.width, region.box.height);
-    const double root = std::sqrt(std::max(1e-9, region.cxx * region.cyy - region.cxy * region.cxy));
-    const double compactness = region.area / (4 * CV_PI * root);
-    const bool is_parallelogram =
-        region.area > PARALLELOGRAM_MIN_AREA && std::abs(compactness - PARALLELOGRAM) < PARALLELOGRAM_TOLERANCE;
-    if (region.area >= MIN_AREA && side >= MIN_SIDE && side <= MAX_SIDE && !is_parallelogram)
+    if (region.area >= MIN_AREA && side >= MIN_SIDE && side <= MAX_SIDE && !isParallelogram(region))
     {
       pieces.push_back(&region);
     }

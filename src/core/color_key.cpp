@@ -25,11 +25,14 @@ constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal let
 constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
 constexpr double EXCESS_DEVIATION = .3;  // of the logarithm: gloss and uneven light
 constexpr double FREE_WHITE_COST = 3;    // of a white that is seen nowhere
-constexpr double HAZE_COST = 4;          // of a haze as bright as the white
+// From the level of the brightest ring up to 4 times as bright: blue and green alone show a third of the white.
+constexpr int FREE_WHITES = 5;
+constexpr double FREE_WHITE_RATIO = 1.4;
+constexpr double HAZE_COST = 4;  // of a haze as bright as the white
 const std::array<double, 7> HAZES = {0, .03, .07, .12, .2, .3, .45};
 
 constexpr double MIN_MARGIN = 1.5;  // between the best explanation and the best with another letter
-constexpr double UNEXPLAINED = 9;   // cost of a ring that no letter explains
+constexpr double UNEXPLAINED = 7;   // cost of a ring that no letter explains
 
 using Costs = std::array<double, LETTERS>;
 
@@ -130,9 +133,11 @@ std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const L
     whites.push_back({ring, tintCost(ring)});
     brightest = std::max({brightest, ring[0], ring[1], ring[2]});
   }
-  for (double level = brightest; level < 20 * brightest; level *= 1.4)
+  double level = brightest;
+  for (int i = 0; i < FREE_WHITES; ++i)
   {
     whites.push_back({LinearColor::all(level), FREE_WHITE_COST});
+    level *= FREE_WHITE_RATIO;
   }
   return whites;
 }
@@ -162,6 +167,7 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
     for (const double haze : HAZES)
     {
       std::vector<Costs> costs;
+      costs.reserve(rings.size());
       for (const LinearColor& ring : rings)
       {
         costs.push_back(letterCosts(ring, white.color, haze));

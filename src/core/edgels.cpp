@@ -15,6 +15,7 @@ constexpr int HALO = 3;                  // two pixels for the 5x5 kernels, one 
 constexpr int GRADIENTS = TILE + 2;      // side of the gradient tile [px]
 constexpr int PIXELS = TILE + 2 * HALO;  // side of the pixel tile [px]
 constexpr int CHANNELS = 3;
+constexpr int ROW_WIDTH = CHANNELS * GRADIENTS;
 constexpr float KERNEL_SUM = 16;  // of the 3x3 Gaussian, which the 5x5 kernels contain undivided
 
 // The threshold is this multiple of the median gradient of the picture, which is its noise, within these bounds: below
@@ -49,32 +50,31 @@ void readRow(const cv::Mat& bgr, int x0, int y, std::int16_t* out)
 /** Gradients of the tile's pixels and of one more around; Sobel and Gaussian in one: separable 5x5 kernels. */
 void computeGradients(const cv::Mat& bgr, int tile_x, int tile_y, GradientTile& tile)
 {
-  constexpr int WIDTH = CHANNELS * GRADIENTS;
   std::array<std::int16_t, CHANNELS * PIXELS> pixels;
-  std::array<std::array<std::int16_t, WIDTH>, PIXELS> smooth;
-  std::array<std::array<std::int16_t, WIDTH>, PIXELS> slope;
+  std::array<std::array<std::int16_t, ROW_WIDTH>, PIXELS> smooth;
+  std::array<std::array<std::int16_t, ROW_WIDTH>, PIXELS> slope;
   for (int i = 0; i < PIXELS; ++i)
   {
     readRow(bgr, tile_x - HALO, tile_y - HALO + i, pixels.data());
     const std::int16_t* p = pixels.data();
-    for (int j = 0; j < WIDTH; ++j)
+    for (int j = 0; j < ROW_WIDTH; ++j)
     {
       smooth[i][j] = static_cast<std::int16_t>(p[j] + 4 * p[j + 3] + 6 * p[j + 6] + 4 * p[j + 9] + p[j + 12]);
       slope[i][j] = static_cast<std::int16_t>(p[j + 12] - p[j] + 2 * (p[j + 9] - p[j + 3]));
     }
   }
-  std::array<std::int16_t, WIDTH> gx;
-  std::array<std::int16_t, WIDTH> gy;
-  std::array<int, WIDTH> squared;
+  std::array<std::int16_t, ROW_WIDTH> gx;
+  std::array<std::int16_t, ROW_WIDTH> gy;
+  std::array<int, ROW_WIDTH> squared;
   for (int i = 0; i < GRADIENTS; ++i)
   {
-    for (int j = 0; j < WIDTH; ++j)
+    for (int j = 0; j < ROW_WIDTH; ++j)
     {
       gx[j] = static_cast<std::int16_t>(slope[i][j] + 4 * slope[i + 1][j] + 6 * slope[i + 2][j] + 4 * slope[i + 3][j] +
                                         slope[i + 4][j]);
       gy[j] = static_cast<std::int16_t>(smooth[i + 4][j] - smooth[i][j] + 2 * (smooth[i + 3][j] - smooth[i + 1][j]));
     }
-    for (int j = 0; j < WIDTH; ++j)
+    for (int j = 0; j < ROW_WIDTH; ++j)
     {
       squared[j] = gx[j] * gx[j] + gy[j] * gy[j];
     }

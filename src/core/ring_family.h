@@ -2,7 +2,6 @@
 #define OUTDOOR_OMR_CORE_RING_FAMILY_H
 
 #include <opencv2/core.hpp>
-#include <vector>
 
 namespace outdoor_omr
 {
@@ -38,28 +37,6 @@ struct RingFamily
  * @return false if the moments are no ellipse's.
  */
 bool familyFromMoments(const cv::Point2d& center, double cxx, double cxy, double cyy, RingFamily& family);
-
-/** An edgel on the outer boundary of a ring. */
-struct BoundaryPoint
-{
-  cv::Point2d position;  ///< [px]
-  int ring = 0;          ///< index into the radii
-};
-
-/** Largest number of boundaries that refineFamily() takes. */
-constexpr int MAX_BOUNDARIES = 16;
-
-/**
- * Least squares fit of the family and of the radii to edgels, robust (Tukey) and damped (Levenberg-Marquardt). The
- * radii are free: gamma and sharpening shift the boundaries to either side.
- *
- * @param perspective also estimate h, which needs two boundaries at least.
- * @param family, radii the start; receive the result.
- * @return            RMS distance of the points that count [px]; infinity, with nothing changed, if there is no
- *                    plausible solution.
- */
-double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
-                    std::vector<double>& radii);
 
 }  // namespace outdoor_omr
 

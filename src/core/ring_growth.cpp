@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "ring_refinement.h"
 
 namespace outdoor_omr
 {
@@ -19,7 +20,7 @@ constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
 constexpr double LARGEST_RMS = 1;             // of the edgels of the first boundary [px]
-constexpr double LARGEST_RELATIVE_RMS = .02;  // more, relative to its radius: perspective, bent sheets
+constexpr double LARGEST_RELATIVE_RMS = .06;  // more, relative to its radius: perspective, bent sheets
 constexpr double CELL = AngularSupport::CELL;
 
 struct Peak

@@ -9,7 +9,7 @@ namespace outdoor_omr
 namespace
 {
 constexpr double FINEST_STEP = .5;  // [px]
-constexpr int MAX_SAMPLES = 250;    // a ray
+constexpr int MAX_SAMPLES = 400;    // a ray
 // Added before the logarithm [grey levels]: below it sensor noise and black level, not light, decide.
 constexpr float DARK_LEVEL = 24;
 constexpr int LEVELS_PER_GREY = 4;
@@ -20,7 +20,7 @@ constexpr double MIN_SURROUNDING = 3;  // width of what counts as around the rin
 
 const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
 {
-  static const auto TABLE = [] {
+  static const auto logarithm_of_level = [] {
     std::array<float, 255 * LEVELS_PER_GREY + 2> table{};
     for (std::size_t i = 0; i < table.size(); ++i)
     {
@@ -28,7 +28,7 @@ const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
     }
     return table;
   }();
-  return TABLE;
+  return logarithm_of_level;
 }
 
 /** Bilinear sample; the caller keeps x and y inside [0, size - 1). */
@@ -56,7 +56,7 @@ LogColor logarithm(const cv::Vec3f& grey)
   LogColor color;
   for (int c = 0; c < 3; ++c)
   {
-    color[c] = table[static_cast<std::size_t>(grey[c] * LEVELS_PER_GREY + .5F)];
+    color[c] = table[static_cast<std::size_t>(std::lround(grey[c] * LEVELS_PER_GREY))];
   }
   return color;
 }

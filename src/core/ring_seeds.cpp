@@ -18,9 +18,16 @@ constexpr double CENTER_SLACK = .8;  // [px]
 // with the inner radius squared t times the outer, .955 for parallelograms.
 constexpr double LEAST_COMPACTNESS = .06;
 constexpr double GREATEST_COMPACTNESS = 1.06;
-constexpr double SQUARE_LOW = .925;
-constexpr double SQUARE_HIGH = .972;
-constexpr int SQUARE_MIN_AREA = 120;  // [px]; in smaller regions pixels make the two alike
+constexpr double PARALLELOGRAM = .955;
+constexpr double PARALLELOGRAM_TOLERANCE = .02;
+constexpr double ELLIPSE_BOX_TOLERANCE = .03;  // of an ellipse's box, which is 4 deviations wide
+constexpr int PARALLELOGRAM_MIN_AREA = 120;    // [px]; in smaller regions pixels make the two alike
+
+double compactness(const Region& region)
+{
+  const double det = region.cxx * region.cyy - region.cxy * region.cxy;
+  return region.area / (4 * CV_PI * std::sqrt(std::max(1e-9, det)));
+}
 
 bool isRound(const Region& region, RingSeed& seed)
 {
@@ -30,14 +37,13 @@ bool isRound(const Region& region, RingSeed& seed)
     return false;
   }
   const double root = std::sqrt(det);
-  const double compactness = region.area / (4 * CV_PI * root);
-  if (compactness < LEAST_COMPACTNESS || compactness > GREATEST_COMPACTNESS ||
-      (region.area > SQUARE_MIN_AREA && compactness > SQUARE_LOW && compactness < SQUARE_HIGH))
+  const double filled = compactness(region);
+  if (filled < LEAST_COMPACTNESS || filled > GREATEST_COMPACTNESS || isParallelogram(region))
   {
     return false;
   }
   // root = (inner^2 + outer^2) / 4.
-  const double ratio = std::max(0., (1 - compactness) / (1 + compactness));
+  const double ratio = std::max(0., (1 - filled) / (1 + filled));
   seed.radius = std::sqrt(4 * root / (1 + ratio));
   const double scale = seed.radius / std::sqrt(root);
   const double half_width = scale * std::sqrt(region.cxx);
@@ -52,6 +58,16 @@ bool isRound(const Region& region, RingSeed& seed)
          seed.family.aspect() < MAX_ASPECT;
 }
 }  // namespace
+
+bool isParallelogram(const Region& region)
+{
+  const double width = region.box.width / std::sqrt(region.cxx);
+  const double height = region.box.height / std::sqrt(region.cyy);
+  const bool has_ellipse_box =
+      std::abs(width / 4 - 1) < ELLIPSE_BOX_TOLERANCE && std::abs(height / 4 - 1) < ELLIPSE_BOX_TOLERANCE;
+  return region.area > PARALLELOGRAM_MIN_AREA && !has_ellipse_box &&
+         std::abs(compactness(region) - PARALLELOGRAM) < PARALLELOGRAM_TOLERANCE;
+}
 
 std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions)
 {

@@ -16,6 +16,9 @@ struct RingSeed
   double radius = 0;  ///< of the region's outer boundary [px]
 };
 
+/** Whether area, moments and box are a parallelogram's, such as a checkerboard's squares, rather than an ellipse's. */
+bool isParallelogram(const Region& region);
+
 /**
  * Regions that are elliptic disks or annuli by their area, second moments and box (paper, section 3.3: which regions
  * are circular is decided from the region data); the smallest first: a target grows from its inside, and costs less so.

@@ -68,7 +68,7 @@ std::string readColors(const RingProfile& profile, std::vector<double>& radii)
     std::vector<LinearColor> colors = measureRingColors(profile, radii);
     const LinearColor around = colors.back();
     colors.pop_back();
-    const std::string key = readColorKey(colors, around);
+    std::string key = readColorKey(colors, around);
     std::size_t k = 0;
     while (k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1]))
     {

@@ -1,0 +1,319 @@
+#include "ring_refinement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace outdoor_omr
+{
+namespace
+{
+using Normal = cv::Matx<double, 7, 7>;
+using Vector = cv::Vec<double, 7>;
+
+constexpr int MAX_STEPS = 8;
+constexpr int MAX_TRIALS = 4;
+constexpr double TUKEY = 3.5;                // of the deviation: full rejection
+constexpr double SMALLEST_DEVIATION = 0.08;  // [px]
+// Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives 0.05;
+// 0.35 is beyond what a marker can be read at.
+constexpr double USUAL_PERSPECTIVE = 0.05;
+constexpr double LARGEST_PERSPECTIVE = 0.35;
+constexpr double LARGEST_ASPECT = 5;
+constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
+constexpr double CONVERGED = 1e-3;    // relative change of the cost
+
+/** Distance of a point to its circle [px], and its derivatives. */
+double residual(const RingFamily& family, const std::vector<double>& radii, const BoundaryPoint& point,
+                Vector* derivative, double* by_radius)
+{
+  const cv::Point2d dp = point.position - family.center;
+  const double m00 = family.a - dp.x * family.hx;
+  const double m01 = family.b - dp.x * family.hy;
+  const double m10 = family.b - dp.y * family.hx;
+  const double m11 = family.d - dp.y * family.hy;
+  const double det = m00 * m11 - m01 * m10;
+  const double qx = (m11 * dp.x - m01 * dp.y) / det;
+  const double qy = (m00 * dp.y - m10 * dp.x) / det;
+  const double r = std::max(1e-6, std::sqrt(qx * qx + qy * qy));
+  // g = M^-T q / r; the gradient of r over p is (1 + h.q) g.
+  const double gx = (m11 * qx - m10 * qy) / (det * r);
+  const double gy = (m00 * qy - m01 * qx) / (det * r);
+  const double w = 1 + family.hx * qx + family.hy * qy;
+  const double scale = 1 / std::max(.1, std::abs(w) * std::sqrt(gx * gx + gy * gy));
+  if (derivative != nullptr)
+  {
+    const double along = gx * dp.x + gy * dp.y;
+    *derivative = scale * Vector(-w * gx, -w * gy, -gx * qx, -(gx * qy + gy * qx), -gy * qy, along * qx, along * qy);
+    *by_radius = -scale;
+  }
+  return scale * (r - radii[point.ring]);
+}
+
+double tukeyWeight(double error, double limit)
+{
+  const double t = error / limit;
+  const double inside = std::max(0., 1 - t * t);
+  return inside * inside;
+}
+
+double tukeyLoss(double error, double limit)
+{
+  const double t = error / limit;
+  const double inside = 1 - t * t;
+  return inside <= 0 ? 1 : 1 - inside * inside * inside;
+}
+
+/** The normal equations, the radii already eliminated: each point knows but one of them. */
+struct Equations
+{
+  Normal normal = Normal::zeros();
+  Vector right = Vector::all(0);
+  std::array<Vector, MAX_BOUNDARIES> coupling{};
+  std::array<double, MAX_BOUNDARIES> diagonal{}, radius_right{};
+};
+
+class Fit
+{
+ public:
+  Fit(const std::vector<BoundaryPoint>& points, bool perspective) : points_(points), perspective_(perspective)
+  {
+  }
+
+  bool run(RingFamily& family, std::vector<double>& radii)
+  {
+    double damping = 1e-4;
+    evaluate(family, radii, errors_);
+    for (int step = 0; step < MAX_STEPS; ++step)
+    {
+      estimateDeviation();
+      const Equations equations = build(family, radii);
+      const double before = cost(family, radii, errors_);
+      double after = before;
+      bool accepted = false;
+      for (int trial = 0; trial < MAX_TRIALS && !accepted; ++trial)
+      {
+        RingFamily next = family;
+        std::vector<double> next_radii = radii;
+        if (solve(equations, damping, next, next_radii))
+        {
+          evaluate(next, next_radii, next_errors_);
+          after = cost(next, next_radii, next_errors_);
+          accepted = after <= before;
+        }
+        if (accepted)
+        {
+          family = next;
+          radii = next_radii;
+          errors_.swap(next_errors_);
+        }
+        damping = accepted ? std::max(1e-7, damping * .1) : damping * 10;
+      }
+      if (!accepted || before - after < CONVERGED * before)
+      {
+        break;
+      }
+    }
+    return plausible(family, radii);
+  }
+
+  /** RMS distance of the points that count [px]. */
+  double rms() const
+  {
+    double sum = 0;
+    double weight_sum = 0;
+    for (const double error : errors_)
+    {
+      const double weight = tukeyWeight(error, limit_);
+      sum += weight * error * error;
+      weight_sum += weight;
+    }
+    return std::sqrt(sum / std::max(1e-9, weight_sum));
+  }
+
+ private:
+  void evaluate(const RingFamily& family, const std::vector<double>& radii, std::vector<double>& errors) const
+  {
+    errors.resize(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+      errors[i] = residual(family, radii, points_[i], nullptr, nullptr);
+    }
+  }
+
+  void estimateDeviation()
+  {
+    sizes_.resize(errors_.size());
+    std::transform(errors_.begin(), errors_.end(), sizes_.begin(), [](double error) { return std::abs(error); });
+    const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
+    std::nth_element(sizes_.begin(), middle, sizes_.end());
+    limit_ = TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
+  }
+
+  /** Weight of the prior on h: one deviation of the points counts as much as the usual perspective. */
+  double priorWeight(const std::vector<double>& radii) const
+  {
+    const double usual = USUAL_PERSPECTIVE / radii.back();
+    return limit_ * limit_ / (TUKEY * TUKEY * usual * usual);
+  }
+
+  double cost(const RingFamily& family, const std::vector<double>& radii, const std::vector<double>& errors) const
+  {
+    double sum = 0;
+    for (const double error : errors)
+    {
+      sum += tukeyLoss(error, limit_);
+    }
+    // Tukey's loss is 3 (e / limit)^2 for small errors e.
+    return sum + 3 * priorWeight(radii) * (family.hx * family.hx + family.hy * family.hy) / (limit_ * limit_);
+  }
+
+  Equations build(const RingFamily& family, const std::vector<double>& radii) const
+  {
+    Equations equations;
+    for (const BoundaryPoint& point : points_)
+    {
+      Vector derivative;
+      double by_radius = 0;
+      const double error = residual(family, radii, point, &derivative, &by_radius);
+      const double weight = tukeyWeight(error, limit_);
+      if (weight <= 0)
+      {
+        continue;
+      }
+      for (int i = 0; i < 7; ++i)
+      {
+        const double wi = weight * derivative[i];
+        equations.right[i] -= wi * error;
+        equations.coupling[point.ring][i] += wi * by_radius;
+        for (int j = i; j < 7; ++j)
+        {
+          equations.normal(i, j) += wi * derivative[j];
+        }
+      }
+      equations.diagonal[point.ring] += weight * by_radius * by_radius;
+      equations.radius_right[point.ring] -= weight * by_radius * error;
+    }
+    const std::array<double, 3> det = {family.d, -2 * family.b, family.a};
+    for (int i = 0; i < 7; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        equations.normal(i, j) = equations.normal(j, i);
+      }
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        equations.normal(2 + i, 2 + j) += GAUGE_WEIGHT * det[i] * det[j];
+      }
+    }
+    const double prior = perspective_ ? priorWeight(radii) : 1e12;
+    equations.normal(5, 5) += prior;
+    equations.normal(6, 6) += prior;
+    if (perspective_)
+    {
+      equations.right[5] -= prior * family.hx;
+      equations.right[6] -= prior * family.hy;
+    }
+    return equations;
+  }
+
+  static bool solve(const Equations& equations, double damping, RingFamily& family, std::vector<double>& radii)
+  {
+    Normal normal = equations.normal;
+    Vector right = equations.right;
+    for (int i = 0; i < 7; ++i)
+    {
+      normal(i, i) *= 1 + damping;
+    }
+    std::array<double, MAX_BOUNDARIES> diagonal{};
+    for (std::size_t k = 0; k < radii.size(); ++k)
+    {
+      diagonal[k] = equations.diagonal[k] * (1 + damping) + 1e-9;
+      const Vector& coupling = equations.coupling[k];
+      for (int i = 0; i < 7; ++i)
+      {
+        right[i] -= coupling[i] * equations.radius_right[k] / diagonal[k];
+        for (int j = 0; j < 7; ++j)
+        {
+          normal(i, j) -= coupling[i] * coupling[j] / diagonal[k];
+        }
+      }
+    }
+    Vector step;
+    if (!cv::solve(normal, right, step, cv::DECOMP_CHOLESKY))
+    {
+      return false;
+    }
+    for (std::size_t k = 0; k < radii.size(); ++k)
+    {
+      radii[k] += (equations.radius_right[k] - equations.coupling[k].dot(step)) / diagonal[k];
+    }
+    family.center += cv::Point2d(step[0], step[1]);
+    family.a += step[2];
+    family.b += step[3];
+    family.d += step[4];
+    family.hx += step[5];
+    family.hy += step[6];
+    const double det = family.a * family.d - family.b * family.b;
+    if (!(det > .25 && det < 4 && family.a > 0))
+    {
+      return false;
+    }
+    const double scale = std::sqrt(det);
+    for (double* value : {&family.a, &family.b, &family.d, &family.hx, &family.hy})
+    {
+      *value /= scale;
+    }
+    for (double& radius : radii)
+    {
+      radius *= scale;
+    }
+    return plausible(family, radii);
+  }
+
+  static bool plausible(const RingFamily& family, const std::vector<double>& radii)
+  {
+    double inner = 0;
+    for (const double radius : radii)
+    {
+      if (!(radius > inner))
+      {
+        return false;
+      }
+      inner = radius;
+    }
+    return std::hypot(family.hx, family.hy) * inner < LARGEST_PERSPECTIVE && family.aspect() < LARGEST_ASPECT;
+  }
+
+  const std::vector<BoundaryPoint>& points_;
+  bool perspective_;
+  std::vector<double> errors_, next_errors_, sizes_;  // [px]
+  double limit_ = 1;                                  // Tukey's: errors beyond it do not count [px]
+};
+}  // namespace
+
+double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
+                    std::vector<double>& radii)
+{
+  const std::size_t unknowns = 7 + radii.size();
+  if (points.size() < unknowns + 4 || radii.empty() || radii.size() > MAX_BOUNDARIES)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  Fit fit(points, perspective && radii.size() >= 2);
+  RingFamily refined = family;
+  std::vector<double> refined_radii = radii;
+  if (!fit.run(refined, refined_radii))
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  family = refined;
+  radii = refined_radii;
+  return fit.rms();
+}
+
+}  // namespace outdoor_omr

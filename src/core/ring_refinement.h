@@ -1,0 +1,34 @@
+#ifndef OUTDOOR_OMR_CORE_RING_REFINEMENT_H
+#define OUTDOOR_OMR_CORE_RING_REFINEMENT_H
+
+#include <vector>
+
+#include "ring_family.h"
+
+namespace outdoor_omr
+{
+/** An edgel on the outer boundary of a ring. */
+struct BoundaryPoint
+{
+  cv::Point2d position;  ///< [px]
+  int ring = 0;          ///< index into the radii
+};
+
+/** Largest number of boundaries that refineFamily() takes. */
+constexpr int MAX_BOUNDARIES = 16;
+
+/**
+ * Least squares fit of the family and of the radii to edgels, robust (Tukey) and damped (Levenberg-Marquardt). The
+ * radii are free: gamma and sharpening shift the boundaries to either side.
+ *
+ * @param perspective also estimate h, which needs two boundaries at least.
+ * @param family, radii the start; receive the result.
+ * @return            RMS distance of the points that count [px]; infinity, with nothing changed, if there is no
+ *                    plausible solution.
+ */
+double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
+                    std::vector<double>& radii);
+
+}  // namespace outdoor_omr
+
+#endif
