@@ -3,7 +3,7 @@
 # Sources come in the order of their dependence and are compiled as one text: an #include becomes an empty line, and
 # #line makes the messages of the device's compiler name the file and line of the kernel.
 string(REPLACE "," ";" sources "${SOURCES}")
-set(text "#include \"kernel_sources.h\"\n\nnamespace outdoor_omr\n{\nconst char* const KERNEL_SOURCES[] = {\n")
+set(text "#include \"kernel_sources.h\"\n\nnamespace omr\n{\nconst char* const KERNEL_SOURCES[] = {\n")
 foreach(source IN LISTS sources)
   get_filename_component(name "${source}" NAME)
   file(READ "${source}" content)
@@ -12,5 +12,5 @@ foreach(source IN LISTS sources)
 endforeach()
 string(APPEND text
   "};\nconst unsigned KERNEL_SOURCE_COUNT = sizeof(KERNEL_SOURCES) / sizeof(KERNEL_SOURCES[0]);\n"
-  "}  // namespace outdoor_omr\n")
+  "}  // namespace omr\n")
 file(WRITE "${OUTPUT}" "${text}")

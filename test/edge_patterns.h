@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** An edge mask (CV_8UC1, 255 = edge) that is hard for a labelling algorithm. */
 struct EdgePattern
@@ -87,6 +87,6 @@ inline std::vector<EdgePattern> edgePatterns(const cv::Size& size)
           {"comb open at the bottom", pattern([&size](int x, int y) { return x % 2 != 0 && y + 1 < size.height; })}};
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace test
 {
@@ -124,4 +124,4 @@ cv::Mat Render::picture(double blur, double noise, std::uint64_t seed) const
 }
 
 }  // namespace test
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace test
 {
@@ -60,6 +60,6 @@ cv::Matx33d boardHomography(int rows, int cols, const cv::Point2d& center, doubl
 cv::Point2d project(const cv::Matx33d& homography, double x, double y);
 
 }  // namespace test
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

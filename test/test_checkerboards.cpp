@@ -8,19 +8,19 @@
 #include "outdoor_omr/settings.h"
 #include "render.h"
 
-using outdoor_omr::Checkerboard;
-using outdoor_omr::Frame;
-using outdoor_omr::RegionMap;
-using outdoor_omr::Settings;
-using outdoor_omr::test::Render;
+using omr::Checkerboard;
+using omr::Frame;
+using omr::RegionMap;
+using omr::Settings;
+using omr::test::Render;
 
 namespace
 {
 std::vector<Checkerboard> find(const cv::Mat& picture)
 {
   RegionMap map;
-  outdoor_omr::FillPipeline("reference").run(picture, Settings(), {}, map);
-  return outdoor_omr::findCheckerboards(outdoor_omr::makeFrame(picture), map, Settings());
+  omr::FillPipeline("reference").run(picture, Settings(), {}, map);
+  return omr::findCheckerboards(omr::makeFrame(picture), map, Settings());
 }
 
 /** Largest distance of an inner corner to the nearest true one, and of a true one to the nearest found [px]. */
@@ -40,7 +40,7 @@ double largestError(const Checkerboard& board, int rows, int cols, const cv::Mat
   {
     for (int j = 1; j < cols; ++j)
     {
-      corners.emplace_back(outdoor_omr::test::project(truth, j, i));
+      corners.emplace_back(omr::test::project(truth, j, i));
       largest = std::max(largest, nearest(corners.back(), board.inner_corners));
     }
   }
@@ -68,7 +68,7 @@ TEST(Checkerboards, findsEverySizeFrom5x7To21x21)
   for (const cv::Size& size : {cv::Size(7, 5), cv::Size(9, 6), cv::Size(10, 7), cv::Size(7, 7), cv::Size(21, 21)})
   {
     const double square = 340. / size.width;
-    const cv::Matx33d truth = outdoor_omr::test::boardHomography(size.height, size.width, {400, 300}, square, 25, 30);
+    const cv::Matx33d truth = omr::test::boardHomography(size.height, size.width, {400, 300}, square, 25, 30);
     Render render({800, 600});
     render.addBoard(size.height, size.width, truth);
     const std::vector<Checkerboard> boards = find(render.picture());
@@ -84,24 +84,24 @@ TEST(Checkerboards, findsEverySizeFrom5x7To21x21)
 TEST(Checkerboards, smallerThan5x7IsNoBoard)
 {
   Render render({400, 300});
-  render.addBoard(4, 7, outdoor_omr::test::boardHomography(4, 7, {200, 80}, 18, 0));
-  render.addBoard(5, 6, outdoor_omr::test::boardHomography(5, 6, {200, 210}, 18, 0));
+  render.addBoard(4, 7, omr::test::boardHomography(4, 7, {200, 80}, 18, 0));
+  render.addBoard(5, 6, omr::test::boardHomography(5, 6, {200, 210}, 18, 0));
   EXPECT_TRUE(find(render.picture()).empty());
 }
 
 TEST(Checkerboards, smallAndBlurredBoardsAreFoundByTheirSaddlePoints)
 {
   Render small({300, 200});
-  small.addBoard(5, 7, outdoor_omr::test::boardHomography(5, 7, {150, 100}, 4, 20));
+  small.addBoard(5, 7, omr::test::boardHomography(5, 7, {150, 100}, 4, 20));
   EXPECT_EQ(1u, find(small.picture(0.5, 1)).size());
   Render blurred({400, 300});
-  blurred.addBoard(5, 7, outdoor_omr::test::boardHomography(5, 7, {200, 150}, 18, 20));
+  blurred.addBoard(5, 7, omr::test::boardHomography(5, 7, {200, 150}, 18, 20));
   EXPECT_EQ(1u, find(blurred.picture(4, 1)).size());
 }
 
 TEST(Checkerboards, lightDoesNotMatter)
 {
-  const cv::Matx33d truth = outdoor_omr::test::boardHomography(7, 9, {300, 220}, 30, 12, 25);
+  const cv::Matx33d truth = omr::test::boardHomography(7, 9, {300, 220}, 30, 12, 25);
   Render render({600, 440});
   render.addBoard(7, 9, truth);
   render.addLightGradient(0.4, 1.1);
@@ -116,7 +116,7 @@ TEST(Checkerboards, lightDoesNotMatter)
 
 TEST(Checkerboards, partlyHiddenBoardsKeepTheirSize)
 {
-  const cv::Matx33d truth = outdoor_omr::test::boardHomography(7, 9, {300, 220}, 30, 5);
+  const cv::Matx33d truth = omr::test::boardHomography(7, 9, {300, 220}, 30, 5);
   Render render({600, 440});
   render.addBoard(7, 9, truth);
   render.addPolygon({{250, -10}, {300, -10}, {340, 450}, {290, 450}}, cv::Scalar(70, 120, 60));
@@ -137,7 +137,7 @@ TEST(Checkerboards, boardsSideBySideStayTwo)
   {
     const double gap = 2 * margin;
     Render render({900, 400});
-    const cv::Matx33d view = outdoor_omr::test::boardHomography(5, 7, {230, 200}, 30, 4, 15);
+    const cv::Matx33d view = omr::test::boardHomography(5, 7, {230, 200}, 30, 4, 15);
     const cv::Matx33d shift(1, 0, 7 + gap, 0, 1, 0, 0, 0, 1);
     render.addBoard(5, 7, view, true, margin);
     render.addBoard(5, 7, view * shift, true, margin);
@@ -156,7 +156,7 @@ TEST(Checkerboards, theOrderIsTheSameUnderAllRotations)
   // 5 x 8: one of the two long diagonals ends in black squares only at one end, so the order is unique.
   for (int turn = 0; turn < 360; turn += 45)
   {
-    const cv::Matx33d truth = outdoor_omr::test::boardHomography(5, 8, {250, 250}, 25, turn);
+    const cv::Matx33d truth = omr::test::boardHomography(5, 8, {250, 250}, 25, turn);
     Render render({500, 500});
     render.addBoard(5, 8, truth);  // black: (0, 0) and (4, 0); white: (0, 7) and (4, 7)
     const std::vector<Checkerboard> boards = find(render.picture());
@@ -164,13 +164,13 @@ TEST(Checkerboards, theOrderIsTheSameUnderAllRotations)
     const Checkerboard& board = boards[0];
     ASSERT_EQ(5, board.rows);
     ASSERT_EQ(8, board.cols);
-    EXPECT_LT(cv::norm(board.inner_corners[0] - cv::Point2f(outdoor_omr::test::project(truth, 1, 1))), 0.2) << turn;
-    EXPECT_LT(cv::norm(board.inner_corners[6] - cv::Point2f(outdoor_omr::test::project(truth, 7, 1))), 0.2) << turn;
-    EXPECT_LT(cv::norm(board.inner_corners[7] - cv::Point2f(outdoor_omr::test::project(truth, 1, 2))), 0.2) << turn;
-    EXPECT_LT(cv::norm(board.corners[0] - cv::Point2f(outdoor_omr::test::project(truth, 0, 0))), 0.5) << turn;
-    EXPECT_LT(cv::norm(board.corners[1] - cv::Point2f(outdoor_omr::test::project(truth, 8, 0))), 0.5) << turn;
-    EXPECT_LT(cv::norm(board.corners[2] - cv::Point2f(outdoor_omr::test::project(truth, 8, 5))), 0.5) << turn;
-    EXPECT_LT(cv::norm(board.squares[8] - cv::Point2f(outdoor_omr::test::project(truth, 0.5, 1.5))), 0.5) << turn;
+    EXPECT_LT(cv::norm(board.inner_corners[0] - cv::Point2f(omr::test::project(truth, 1, 1))), 0.2) << turn;
+    EXPECT_LT(cv::norm(board.inner_corners[6] - cv::Point2f(omr::test::project(truth, 7, 1))), 0.2) << turn;
+    EXPECT_LT(cv::norm(board.inner_corners[7] - cv::Point2f(omr::test::project(truth, 1, 2))), 0.2) << turn;
+    EXPECT_LT(cv::norm(board.corners[0] - cv::Point2f(omr::test::project(truth, 0, 0))), 0.5) << turn;
+    EXPECT_LT(cv::norm(board.corners[1] - cv::Point2f(omr::test::project(truth, 8, 0))), 0.5) << turn;
+    EXPECT_LT(cv::norm(board.corners[2] - cv::Point2f(omr::test::project(truth, 8, 5))), 0.5) << turn;
+    EXPECT_LT(cv::norm(board.squares[8] - cv::Point2f(omr::test::project(truth, 0.5, 1.5))), 0.5) << turn;
   }
 }
 
@@ -179,7 +179,7 @@ TEST(Checkerboards, equalCornerSquaresBeginNearestToTheTopLeft)
   for (int turn = 10; turn < 360; turn += 50)
   {
     Render render({500, 500});
-    render.addBoard(5, 7, outdoor_omr::test::boardHomography(5, 7, {250, 250}, 25, turn));
+    render.addBoard(5, 7, omr::test::boardHomography(5, 7, {250, 250}, 25, turn));
     const std::vector<Checkerboard> boards = find(render.picture());
     ASSERT_EQ(1u, boards.size()) << turn;
     EXPECT_LT(cv::norm(boards[0].inner_corners.front()), cv::norm(boards[0].inner_corners.back())) << turn;
@@ -191,7 +191,7 @@ TEST(Checkerboards, equalCornerSquaresBeginNearestToTheTopLeft)
 
 TEST(Checkerboards, aBoardCutByThePictureHasNoCertainSize)
 {
-  const cv::Matx33d truth = outdoor_omr::test::boardHomography(9, 9, {130, 200}, 40, 0);
+  const cv::Matx33d truth = omr::test::boardHomography(9, 9, {130, 200}, 40, 0);
   Render render({400, 400});
   render.addBoard(9, 9, truth);  // the first column lies outside
   const std::vector<Checkerboard> boards = find(render.picture());
@@ -204,7 +204,7 @@ TEST(Checkerboards, aBoardCutByThePictureHasNoCertainSize)
 
 TEST(Checkerboards, hiddenRimsHaveNoCertainSize)
 {
-  const cv::Matx33d truth = outdoor_omr::test::boardHomography(7, 9, {300, 220}, 30, 0);
+  const cv::Matx33d truth = omr::test::boardHomography(7, 9, {300, 220}, 30, 0);
   Render render({600, 440});
   render.addBoard(7, 9, truth);
   // Hides the last two columns and the margin beside them.

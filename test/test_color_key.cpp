@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using outdoor_omr::LinearColor;
-using outdoor_omr::readColorKey;
+using omr::LinearColor;
+using omr::readColorKey;
 
 namespace
 {
@@ -72,9 +72,9 @@ TEST(ColorKey, nothingFromNothing)
 
 TEST(ColorKey, linearLightInvertsSrgb)
 {
-  EXPECT_DOUBLE_EQ(0, outdoor_omr::linearLight(0));
-  EXPECT_DOUBLE_EQ(1, outdoor_omr::linearLight(255));
-  EXPECT_NEAR(.2159, outdoor_omr::linearLight(128), 1e-3);
+  EXPECT_DOUBLE_EQ(0, omr::linearLight(0));
+  EXPECT_DOUBLE_EQ(1, omr::linearLight(255));
+  EXPECT_NEAR(.2159, omr::linearLight(128), 1e-3);
 }
 
 int main(int argc, char** argv)

@@ -4,13 +4,13 @@
 #include "outdoor_omr/rim_look.h"
 #include "render.h"
 
-using outdoor_omr::CornerLook;
-using outdoor_omr::CornerLooker;
-using outdoor_omr::CornerQuery;
-using outdoor_omr::Frame;
-using outdoor_omr::LocalFrame;
-using outdoor_omr::RimLook;
-using outdoor_omr::test::Render;
+using omr::CornerLook;
+using omr::CornerLooker;
+using omr::CornerQuery;
+using omr::Frame;
+using omr::LocalFrame;
+using omr::RimLook;
+using omr::test::Render;
 
 namespace
 {
@@ -23,9 +23,9 @@ cv::Matx33d upright(double square)
 
 LocalFrame frameAt(const cv::Matx33d& board, double col, double row)
 {
-  const cv::Point2f node = outdoor_omr::test::project(board, col, row);
-  const cv::Point2f right = outdoor_omr::test::project(board, col + 1, row);
-  const cv::Point2f below = outdoor_omr::test::project(board, col, row + 1);
+  const cv::Point2f node = omr::test::project(board, col, row);
+  const cv::Point2f right = omr::test::project(board, col + 1, row);
+  const cv::Point2f below = omr::test::project(board, col, row + 1);
   return {node, right - node, below - node};
 }
 }  // namespace
@@ -36,7 +36,7 @@ TEST(CornerLook, findsTheCornerOfFourSquaresAtEverySize)
   {
     Render render({500, 400});
     render.addBoard(5, 7, upright(square));
-    const Frame frame = outdoor_omr::makeFrame(render.picture());
+    const Frame frame = omr::makeFrame(render.picture());
     CornerLooker looker(frame, BUDGET);
     const LocalFrame truth = frameAt(upright(square), 3, 2);
     LocalFrame predicted = truth;
@@ -53,7 +53,7 @@ TEST(CornerLook, theSignSaysWhichSquaresAreLight)
 {
   Render render({300, 300});
   render.addBoard(5, 7, upright(20));
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, BUDGET);
   const LocalFrame even = frameAt(upright(20), 2, 2);  // beside it, towards +u +v, lies the black square (2, 2)
   const LocalFrame odd = frameAt(upright(20), 3, 2);
@@ -71,7 +71,7 @@ TEST(CornerLook, theEdgeOfAHardShadowIsNoObstacleAndNoCorner)
   Render render({300, 300});
   render.addBoard(5, 7, upright(24));
   render.addShadow({{120, -10}, {400, -10}, {400, 310}, {90, 310}}, 0.2);
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, BUDGET);
   int found = 0;
   for (int col = 1; col < 7; ++col)
@@ -90,7 +90,7 @@ TEST(CornerLook, theRimTellsOuterFromInnerCorners)
 {
   Render render({300, 300});
   render.addBoard(5, 7, upright(20));
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   const auto look = [&](double col, double row, int dark_u, int dark_v) {
     return lookAtRim(frame, {frameAt(upright(20), col, row), dark_u, dark_v, true}, 100);
   };
@@ -105,9 +105,9 @@ TEST(CornerLook, aColouredThingOverTheRimIsNoMargin)
 {
   Render render({300, 300});
   render.addBoard(5, 7, upright(20));
-  const outdoor_omr::RimPlace place{frameAt(upright(20), 3, 5), -1, -1, true};
+  const omr::RimPlace place{frameAt(upright(20), 3, 5), -1, -1, true};
   render.addPolygon({{0, 141}, {300, 141}, {300, 200}, {0, 200}}, cv::Scalar(90, 240, 230));
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   EXPECT_NE(RimLook::outer_corner, lookAtRim(frame, place, 100));
 }
 
@@ -115,7 +115,7 @@ TEST(CornerLook, neverBeyondTheBudgetOrThePicture)
 {
   Render render({300, 300});
   render.addBoard(5, 7, upright(20));
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, 1);
   EXPECT_TRUE(looker.look(frameAt(upright(20), 2, 2), CornerQuery()).found);
   EXPECT_EQ(0, looker.looksLeft());

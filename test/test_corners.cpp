@@ -9,20 +9,20 @@
 #include "outdoor_omr/corners.h"
 #include "render.h"
 
-using outdoor_omr::CornerLooker;
-using outdoor_omr::CornerQuery;
-using outdoor_omr::Frame;
-using outdoor_omr::Lattice;
-using outdoor_omr::LocalFrame;
-using outdoor_omr::test::Render;
+using omr::CornerLooker;
+using omr::CornerQuery;
+using omr::Frame;
+using omr::Lattice;
+using omr::LocalFrame;
+using omr::test::Render;
 
 namespace
 {
 LocalFrame frameAt(const cv::Matx33d& board, double col, double row)
 {
-  const cv::Point2f node = outdoor_omr::test::project(board, col, row);
-  const cv::Point2f right = outdoor_omr::test::project(board, col + 1, row);
-  const cv::Point2f below = outdoor_omr::test::project(board, col, row + 1);
+  const cv::Point2f node = omr::test::project(board, col, row);
+  const cv::Point2f right = omr::test::project(board, col + 1, row);
+  const cv::Point2f below = omr::test::project(board, col, row + 1);
   return {node, right - node, below - node};
 }
 
@@ -43,7 +43,7 @@ double rmsOf(const Lattice& lattice, const cv::Matx33d& board)
   {
     for (int j = 0; j < lattice.box.width; ++j)
     {
-      const cv::Point2f truth = outdoor_omr::test::project(board, j + 1, i + 1);
+      const cv::Point2f truth = omr::test::project(board, j + 1, i + 1);
       const cv::Point2f error = lattice.at(lattice.box.y + i, lattice.box.x + j).position - truth;
       sum += error.dot(error);
     }
@@ -56,10 +56,10 @@ TEST(Corners, areAccurateToAFewHundredthsOfAPixel)
 {
   for (const double square : {6., 12., 30., 60.})
   {
-    const cv::Matx33d board = outdoor_omr::test::boardHomography(5, 7, {300.2, 220.7}, square, 17, 30);
+    const cv::Matx33d board = omr::test::boardHomography(5, 7, {300.2, 220.7}, square, 17, 30);
     Render render({600, 440});
     render.addBoard(5, 7, board);
-    const Frame frame = outdoor_omr::makeFrame(render.picture(0.7, 2));
+    const Frame frame = omr::makeFrame(render.picture(0.7, 2));
     Lattice lattice = grow(frame, frameAt(board, 3, 2));
     ASSERT_EQ(cv::Size(6, 4), lattice.box.size()) << square;
     const std::vector<bool> seen = refineCorners(frame, lattice);
@@ -70,12 +70,12 @@ TEST(Corners, areAccurateToAFewHundredthsOfAPixel)
 
 TEST(Corners, aHiddenCornerGetsItsForecastAndTheFlag)
 {
-  const cv::Matx33d board = outdoor_omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);
   Render render({400, 300});
   render.addBoard(5, 7, board);
-  const cv::Point2d hidden = outdoor_omr::test::project(board, 3, 2);
+  const cv::Point2d hidden = omr::test::project(board, 3, 2);
   render.addCircle(hidden, 9, cv::Matx33d::eye(), cv::Scalar(40, 90, 70));
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   Lattice lattice = grow(frame, frameAt(board, 1, 1));
   ASSERT_EQ(cv::Size(6, 4), lattice.box.size());
   const std::vector<bool> seen = refineCorners(frame, lattice);
@@ -90,11 +90,11 @@ TEST(Corners, refinementStaysPutWithoutGradientAndAtThePicturesEdge)
 {
   const cv::Mat flat(60, 60, CV_8UC1, cv::Scalar(90));
   const LocalFrame inside{{30.25F, 30.5F}, {12, 0}, {0, 12}};
-  EXPECT_EQ(inside.node, outdoor_omr::refineCorner(flat, inside));
+  EXPECT_EQ(inside.node, omr::refineCorner(flat, inside));
   const LocalFrame edge{{1, 59}, {12, 0}, {0, 12}};
-  EXPECT_EQ(edge.node, outdoor_omr::refineCorner(flat, edge));
+  EXPECT_EQ(edge.node, omr::refineCorner(flat, edge));
   const LocalFrame outside{{-40, 900}, {12, 0}, {0, 12}};
-  EXPECT_EQ(outside.node, outdoor_omr::refineCorner(flat, outside));
+  EXPECT_EQ(outside.node, omr::refineCorner(flat, outside));
 }
 
 int main(int argc, char** argv)

@@ -6,8 +6,8 @@
 
 #include "render_target.h"
 
-using outdoor_omr::Edgel;
-using outdoor_omr::EdgelMap;
+using omr::Edgel;
+using omr::EdgelMap;
 
 TEST(Edgels, lieOnTheCircleToATenthOfAPixel)
 {

@@ -6,8 +6,8 @@
 
 #include "outdoor_omr/fill_pipeline.h"
 
-using outdoor_omr::DeviceError;
-using outdoor_omr::FillPipeline;
+using omr::DeviceError;
+using omr::FillPipeline;
 
 TEST(WithoutOpenCL, autoFallsBackToTheReferenceAndSaysWhy)
 {
@@ -15,8 +15,8 @@ TEST(WithoutOpenCL, autoFallsBackToTheReferenceAndSaysWhy)
   EXPECT_EQ("reference (no OpenCL)", pipeline.deviceName());
   EXPECT_EQ("no OpenCL device is present", pipeline.fallbackReason());
   EXPECT_TRUE(FillPipeline::devices().empty());
-  outdoor_omr::RegionMap map;
-  pipeline.run(cv::Mat(20, 30, CV_8UC3, cv::Scalar::all(80)), outdoor_omr::Settings(), FillPipeline::Outputs(), map);
+  omr::RegionMap map;
+  pipeline.run(cv::Mat(20, 30, CV_8UC3, cv::Scalar::all(80)), omr::Settings(), FillPipeline::Outputs(), map);
   EXPECT_EQ(1, map.region_count);
 }
 

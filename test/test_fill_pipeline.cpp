@@ -15,16 +15,16 @@
 #include "outdoor_omr/reference_fill.h"
 #include "scene.h"
 
-using outdoor_omr::AreaWindow;
-using outdoor_omr::DeviceError;
-using outdoor_omr::DeviceFill;
-using outdoor_omr::FillMethod;
-using outdoor_omr::FillPipeline;
-using outdoor_omr::Filter;
-using outdoor_omr::Geometry;
-using outdoor_omr::RegionMap;
-using outdoor_omr::RegionSums;
-using outdoor_omr::Settings;
+using omr::AreaWindow;
+using omr::DeviceError;
+using omr::DeviceFill;
+using omr::FillMethod;
+using omr::FillPipeline;
+using omr::Filter;
+using omr::Geometry;
+using omr::RegionMap;
+using omr::RegionSums;
+using omr::Settings;
 
 namespace
 {
@@ -78,7 +78,7 @@ class DeviceFillTest : public testing::TestWithParam<Geometry>
  protected:
   void SetUp() override
   {
-    const std::vector<outdoor_omr::Device> devices = outdoor_omr::selectDevices("auto");
+    const std::vector<omr::Device> devices = omr::selectDevices("auto");
     if (devices.empty())
     {
       GTEST_SKIP() << "no OpenCL device";
@@ -101,8 +101,8 @@ class DeviceFillTest : public testing::TestWithParam<Geometry>
   void checkEdges(const cv::Mat& edges)
   {
     const cv::Mat image = noiseImage(edges.size());
-    const cv::Mat expected_labels = outdoor_omr::labelRegions(edges);
-    const std::vector<RegionSums> expected = outdoor_omr::sumRegions(image, edges, expected_labels);
+    const cv::Mat expected_labels = omr::labelRegions(edges);
+    const std::vector<RegionSums> expected = omr::sumRegions(image, edges, expected_labels);
     for (const FillMethod method : {FillMethod::runs, FillMethod::sweep})
     {
       cv::Mat labels;
@@ -125,10 +125,10 @@ class DeviceFillTest : public testing::TestWithParam<Geometry>
   /** Everything of an image, by runs. */
   void checkImage(const cv::Mat& image, Filter filter, int size, int threshold)
   {
-    const cv::Mat filtered = outdoor_omr::filterImage(image, filter, size);
-    const cv::Mat expected_edges = outdoor_omr::edgeMask(filtered, threshold);
-    const cv::Mat expected_labels = outdoor_omr::labelRegions(expected_edges);
-    const std::vector<RegionSums> expected = outdoor_omr::sumRegions(filtered, expected_edges, expected_labels);
+    const cv::Mat filtered = omr::filterImage(image, filter, size);
+    const cv::Mat expected_edges = omr::edgeMask(filtered, threshold);
+    const cv::Mat expected_labels = omr::labelRegions(expected_edges);
+    const std::vector<RegionSums> expected = omr::sumRegions(filtered, expected_edges, expected_labels);
     cv::Mat edges;
     cv::Mat labels;
     std::vector<RegionSums> sums;
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Geometries, DeviceFillTest, testing::Values(Geometry::s
 
 TEST_P(DeviceFillTest, everyFilterOnAScene)
 {
-  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  const cv::Mat scene = omr::drawScene({640, 480});
   checkImage(scene, Filter::none, 3, 100);
   for (const int size : {3, 5})
   {
@@ -212,7 +212,7 @@ TEST_P(DeviceFillTest, extremeThresholds)
 
 TEST_P(DeviceFillTest, regionOfInterestEndsAtItsBorder)
 {
-  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  const cv::Mat scene = omr::drawScene({640, 480});
   const cv::Mat part = scene(cv::Rect(33, 21, 401, 253));
   ASSERT_FALSE(part.isContinuous());
   for (const Filter filter : {Filter::none, Filter::gaussian, Filter::median})
@@ -248,7 +248,7 @@ TEST_P(DeviceFillTest, readsNothingOutsideTheImage)
 
 TEST_P(DeviceFillTest, edgePatterns)
 {
-  for (const auto& pattern : outdoor_omr::edgePatterns({190, 130}))
+  for (const auto& pattern : omr::edgePatterns({190, 130}))
   {
     SCOPED_TRACE(pattern.name);
     checkEdges(pattern.edges);
@@ -260,7 +260,7 @@ TEST_P(DeviceFillTest, edgePatternsOfChangingSize)
   for (const cv::Size& size : {cv::Size(67, 41), cv::Size(1, 1), cv::Size(64, 70), cv::Size(200, 1), cv::Size(1, 200),
                                cv::Size(128, 16), cv::Size(129, 33), cv::Size(191, 65)})
   {
-    for (const auto& pattern : outdoor_omr::edgePatterns(size))
+    for (const auto& pattern : omr::edgePatterns(size))
     {
       SCOPED_TRACE(testing::Message() << pattern.name << " " << size.width << " x " << size.height);
       checkEdges(pattern.edges);
@@ -285,24 +285,24 @@ TEST_P(DeviceFillTest, moreRegionsThanTheBuffersHold)
     }
   }
   checkEdges(edges);
-  checkImage(outdoor_omr::drawScene({320, 200}), Filter::gaussian, 3, 100);
+  checkImage(omr::drawScene({320, 200}), Filter::gaussian, 3, 100);
 }
 
 TEST_P(DeviceFillTest, sweepThatDoesNotSettleLeavesTheLabelsToTheRuns)
 {
-  const cv::Mat edges = outdoor_omr::serpentine({100, 60});
+  const cv::Mat edges = omr::serpentine({100, 60});
   cv::Mat labels;
   fill_->loadImage(noiseImage(edges.size()));
   fill_->loadEdges(edges);
   EXPECT_EQ(FillMethod::runs, fill_->labelRegions(FillMethod::sweep, 3));
   fill_->readLabels(labels);
   fill_->finish();
-  EXPECT_TRUE(equal(outdoor_omr::labelRegions(edges), labels));
+  EXPECT_TRUE(equal(omr::labelRegions(edges), labels));
 }
 
 TEST(FillPipeline, agreesWithTheReference)
 {
-  const cv::Mat scene = outdoor_omr::drawScene({641, 479});
+  const cv::Mat scene = omr::drawScene({641, 479});
   FillPipeline device("auto");
   FillPipeline reference("reference");
   for (const FillMethod method : {FillMethod::runs, FillMethod::sweep})
@@ -335,7 +335,7 @@ TEST(FillPipeline, agreesWithTheReference)
 
 TEST(FillPipeline, reportsOnlyTheAreasAskedFor)
 {
-  const cv::Mat scene = outdoor_omr::drawScene({640, 480});
+  const cv::Mat scene = omr::drawScene({640, 480});
   Settings settings;
   settings.region_min_area = 50;
   settings.region_max_share = 0.01;
@@ -349,7 +349,7 @@ TEST(FillPipeline, reportsOnlyTheAreasAskedFor)
     EXPECT_FALSE(map.regions.empty());
     EXPECT_GT(map.region_count, static_cast<int>(map.regions.size()));
     int previous = -1;
-    for (const outdoor_omr::Region& region : map.regions)
+    for (const omr::Region& region : map.regions)
     {
       EXPECT_GE(region.area, 50);
       EXPECT_LE(region.area, 3072);
@@ -369,9 +369,8 @@ TEST(FillPipeline, keepsOutputsThatAPreviousImageLeftInAnotherShape)
   map.labels = larger(cv::Rect(5, 5, 90, 70));  // right size, but rows apart
   const cv::Mat image = noiseImage({90, 70});
   pipeline.run(image, Settings(), both, map);
-  const cv::Mat filtered = outdoor_omr::filterImage(image, Settings().filter, Settings().filter_size);
-  EXPECT_TRUE(
-      equal(outdoor_omr::labelRegions(outdoor_omr::edgeMask(filtered, Settings().sobel_threshold)), map.labels));
+  const cv::Mat filtered = omr::filterImage(image, Settings().filter, Settings().filter_size);
+  EXPECT_TRUE(equal(omr::labelRegions(omr::edgeMask(filtered, Settings().sobel_threshold)), map.labels));
   EXPECT_EQ(0, cv::norm(larger, cv::Mat(300, 300, CV_32SC1, cv::Scalar(7)), cv::NORM_INF));
 }
 
@@ -381,14 +380,14 @@ TEST(FillPipeline, stepTimesAddUpToThePositiveWhole)
   {
     FillPipeline pipeline(device);
     RegionMap map;
-    std::vector<outdoor_omr::StepTime> times;
-    pipeline.run(outdoor_omr::drawScene({640, 480}), Settings(), FillPipeline::Outputs(), map, &times);
+    std::vector<omr::StepTime> times;
+    pipeline.run(omr::drawScene({640, 480}), Settings(), FillPipeline::Outputs(), map, &times);
     ASSERT_EQ(4U, times.size());
     EXPECT_EQ("filter", times[0].step);
     EXPECT_EQ("edges", times[1].step);
     EXPECT_EQ("labels", times[2].step);
     EXPECT_EQ("region data", times[3].step);
-    for (const outdoor_omr::StepTime& time : times)
+    for (const omr::StepTime& time : times)
     {
       EXPECT_GT(time.milliseconds, 0) << time.step;
     }

@@ -8,29 +8,29 @@
 #include "outdoor_omr/settings.h"
 #include "render.h"
 
-using outdoor_omr::Frame;
-using outdoor_omr::RegionMap;
-using outdoor_omr::Seed;
-using outdoor_omr::Settings;
-using outdoor_omr::test::Render;
+using omr::Frame;
+using omr::RegionMap;
+using omr::Seed;
+using omr::Settings;
+using omr::test::Render;
 
 namespace
 {
 RegionMap regionsOf(const cv::Mat& picture)
 {
   RegionMap map;
-  outdoor_omr::FillPipeline("reference").run(picture, Settings(), {}, map);
+  omr::FillPipeline("reference").run(picture, Settings(), {}, map);
   return map;
 }
 }  // namespace
 
 TEST(Groups, pairsOfSquaresGiveTheLatticeBetweenThem)
 {
-  const cv::Matx33d board = outdoor_omr::test::boardHomography(5, 7, {200, 150}, 25, 20, 30);
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 20, 30);
   Render render({400, 300});
   render.addBoard(5, 7, board);
   const cv::Mat picture = render.picture();
-  const std::vector<Seed> seeds = outdoor_omr::pairNeighbours(outdoor_omr::makeFrame(picture), regionsOf(picture));
+  const std::vector<Seed> seeds = omr::pairNeighbours(omr::makeFrame(picture), regionsOf(picture));
   ASSERT_FALSE(seeds.empty());
   for (std::size_t i = 1; i < seeds.size(); ++i)
   {
@@ -39,13 +39,13 @@ TEST(Groups, pairsOfSquaresGiveTheLatticeBetweenThem)
   // The first seed lies on an inner corner, and one step along u and v leads to others.
   const cv::Matx33d to_board = board.inv();
   const auto distance_to_node = [&](const cv::Point2f& point) {
-    const cv::Point2d square = outdoor_omr::test::project(to_board, point.x, point.y);
+    const cv::Point2d square = omr::test::project(to_board, point.x, point.y);
     return std::hypot(square.x - std::round(square.x), square.y - std::round(square.y));
   };
   EXPECT_LT(distance_to_node(seeds[0].frame.node), 0.15);
   EXPECT_LT(distance_to_node(seeds[0].frame.at(1, 0)), 0.25);
   EXPECT_LT(distance_to_node(seeds[0].frame.at(0, 1)), 0.25);
-  EXPECT_GT(outdoor_omr::cross(seeds[0].frame.u, seeds[0].frame.v), 0);
+  EXPECT_GT(omr::cross(seeds[0].frame.u, seeds[0].frame.v), 0);
 }
 
 TEST(Groups, singleSquaresAndEmptyMapsGiveNothing)
@@ -53,8 +53,8 @@ TEST(Groups, singleSquaresAndEmptyMapsGiveNothing)
   Render render({200, 200});
   render.addPolygon({{50, 50}, {80, 50}, {80, 80}, {50, 80}}, cv::Scalar::all(20));
   const cv::Mat picture = render.picture();
-  EXPECT_TRUE(outdoor_omr::pairNeighbours(outdoor_omr::makeFrame(picture), regionsOf(picture)).empty());
-  EXPECT_TRUE(outdoor_omr::pairNeighbours(outdoor_omr::makeFrame(picture), RegionMap()).empty());
+  EXPECT_TRUE(omr::pairNeighbours(omr::makeFrame(picture), regionsOf(picture)).empty());
+  EXPECT_TRUE(omr::pairNeighbours(omr::makeFrame(picture), RegionMap()).empty());
 }
 
 TEST(Groups, regionsWithoutExtentAreIgnored)
@@ -62,7 +62,7 @@ TEST(Groups, regionsWithoutExtentAreIgnored)
   RegionMap map;
   map.size = {64, 64};
   map.regions.resize(3);  // all zero: no area, no covariance
-  EXPECT_TRUE(outdoor_omr::pairNeighbours(outdoor_omr::makeFrame(cv::Mat::zeros(64, 64, CV_8UC3)), map).empty());
+  EXPECT_TRUE(omr::pairNeighbours(omr::makeFrame(cv::Mat::zeros(64, 64, CV_8UC3)), map).empty());
 }
 
 int main(int argc, char** argv)

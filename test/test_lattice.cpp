@@ -9,14 +9,14 @@
 #include "outdoor_omr/lattice_model.h"
 #include "render.h"
 
-using outdoor_omr::CornerLook;
-using outdoor_omr::CornerLooker;
-using outdoor_omr::CornerQuery;
-using outdoor_omr::Frame;
-using outdoor_omr::Lattice;
-using outdoor_omr::LocalFrame;
-using outdoor_omr::SideEvidence;
-using outdoor_omr::test::Render;
+using omr::CornerLook;
+using omr::CornerLooker;
+using omr::CornerQuery;
+using omr::Frame;
+using omr::Lattice;
+using omr::LocalFrame;
+using omr::SideEvidence;
+using omr::test::Render;
 
 namespace
 {
@@ -24,9 +24,9 @@ constexpr int BUDGET = 10000;
 
 LocalFrame frameAt(const cv::Matx33d& board, double col, double row)
 {
-  const cv::Point2f node = outdoor_omr::test::project(board, col, row);
-  const cv::Point2f right = outdoor_omr::test::project(board, col + 1, row);
-  const cv::Point2f below = outdoor_omr::test::project(board, col, row + 1);
+  const cv::Point2f node = omr::test::project(board, col, row);
+  const cv::Point2f right = omr::test::project(board, col + 1, row);
+  const cv::Point2f below = omr::test::project(board, col, row + 1);
   return {node, right - node, below - node};
 }
 
@@ -68,10 +68,10 @@ Lattice latticeOf(int rows, int cols, const Position& position)
 
 TEST(Lattice, growsToTheWholeBoardFromAnyCorner)
 {
-  const cv::Matx33d board = outdoor_omr::test::boardHomography(5, 7, {200, 150}, 25, 35, 40);
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 35, 40);
   Render render({400, 300});
   render.addBoard(5, 7, board);
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   for (const cv::Point& start : {cv::Point(1, 1), cv::Point(6, 4), cv::Point(3, 2)})
   {
     CornerLooker looker(frame, BUDGET);
@@ -94,7 +94,7 @@ TEST(Lattice, jumpsOverWhatHidesSquaresButNotOverTheMarginToTheNextBoard)
   render.addPolygon({{160, 0}, {195, 0}, {195, 300}, {160, 300}}, cv::Scalar(60, 110, 90));
   // The next board continues the lattice after a margin of two squares, alike in size and phase.
   render.addBoard(5, 7, cv::Matx33d(25, 0, 60 + 11 * 25, 0, 25, 60, 0, 0, 1), false);
-  const Frame frame = outdoor_omr::makeFrame(render.picture());
+  const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, BUDGET);
   Lattice lattice = grow(looker, frameAt(board, 2, 2));
   const int before = lattice.count();

@@ -9,10 +9,10 @@
 #include "outdoor_omr/overlay.h"
 #include "outdoor_omr/reference_fill.h"
 
-using outdoor_omr::Checkerboard;
-using outdoor_omr::Markers;
-using outdoor_omr::RegionMap;
-using outdoor_omr::Target;
+using omr::Checkerboard;
+using omr::Markers;
+using omr::RegionMap;
+using omr::Target;
 
 namespace
 {
@@ -60,7 +60,7 @@ Target makeTarget(const std::string& colors, double ring, const cv::Point2d& cen
 
 cv::Mat draw(const cv::Size& size, const Markers& markers)
 {
-  return outdoor_omr::drawOverlay(cv::Mat(size, CV_8UC3, GREY), markers, {});
+  return omr::drawOverlay(cv::Mat(size, CV_8UC3, GREY), markers, {});
 }
 
 int countChanged(const cv::Mat& picture)
@@ -93,7 +93,7 @@ TEST(Overlay, withoutMarkersIsACopyOfTheImage)
   cv::Mat image(48, 64, CV_8UC3);
   cv::randu(image, 0, 256);
   const cv::Mat before = image.clone();
-  cv::Mat picture = outdoor_omr::drawOverlay(image, {}, {});
+  cv::Mat picture = omr::drawOverlay(image, {}, {});
   EXPECT_EQ(0, cv::norm(picture, before, cv::NORM_INF));
   picture.setTo(0);
   EXPECT_EQ(0, cv::norm(image, before, cv::NORM_INF)) << "the overlay shares the image's memory";
@@ -105,7 +105,7 @@ TEST(Overlay, doesNotChangeTheImageItDrawsOn)
   Markers markers;
   markers.checkerboards = {makeBoard(5, 7, 40, {50, 60})};
   markers.targets = {makeTarget("RWP", 20, {500, 300})};
-  EXPECT_GT(countChanged(outdoor_omr::drawOverlay(image, markers, {})), 1000);
+  EXPECT_GT(countChanged(omr::drawOverlay(image, markers, {})), 1000);
   EXPECT_EQ(0, countChanged(image));
 }
 
@@ -214,9 +214,9 @@ TEST(Overlay, paintsEveryRegionTheFirstBlueEdgesYellow)
   cv::rectangle(image, {50, 30, 20, 20}, {0, 0, 255}, cv::FILLED);
   RegionMap regions;
   regions.size = image.size();
-  regions.edges = outdoor_omr::edgeMask(image, 100);
-  regions.labels = outdoor_omr::labelRegions(regions.edges);
-  const cv::Mat picture = outdoor_omr::drawOverlay(image, {}, regions);
+  regions.edges = omr::edgeMask(image, 100);
+  regions.labels = omr::labelRegions(regions.edges);
+  const cv::Mat picture = omr::drawOverlay(image, {}, regions);
   const auto& first_square = picture.at<cv::Vec3b>(20, 20);
   const auto& second_square = picture.at<cv::Vec3b>(40, 60);
   EXPECT_NE(first_square, second_square);
@@ -238,7 +238,7 @@ TEST(Overlay, paintsEveryRegionTheFirstBlueEdgesYellow)
     }
   }
   EXPECT_EQ(4U, colors.size());
-  EXPECT_EQ(0, cv::norm(picture, outdoor_omr::drawOverlay(image, {}, regions), cv::NORM_INF));
+  EXPECT_EQ(0, cv::norm(picture, omr::drawOverlay(image, {}, regions), cv::NORM_INF));
 }
 
 TEST(Overlay, survivesMarkersFarOutsideAndPositionsThatAreNoNumbers)
@@ -278,14 +278,14 @@ TEST(Overlay, takesTheSmallestImages)
 TEST(Overlay, refusesWhatDoesNotFitTogether)
 {
   const cv::Mat image(48, 64, CV_8UC3, GREY);
-  EXPECT_THROW(outdoor_omr::drawOverlay({}, {}, {}), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::drawOverlay(cv::Mat(48, 64, CV_8UC1), {}, {}), std::invalid_argument);
+  EXPECT_THROW(omr::drawOverlay({}, {}, {}), std::invalid_argument);
+  EXPECT_THROW(omr::drawOverlay(cv::Mat(48, 64, CV_8UC1), {}, {}), std::invalid_argument);
   RegionMap regions;
   regions.labels = cv::Mat::zeros(24, 32, CV_32SC1);
-  EXPECT_THROW(outdoor_omr::drawOverlay(image, {}, regions), std::invalid_argument);
+  EXPECT_THROW(omr::drawOverlay(image, {}, regions), std::invalid_argument);
   regions.labels = cv::Mat::zeros(48, 64, CV_32SC1);
   regions.edges = cv::Mat::zeros(48, 60, CV_8UC1);
-  EXPECT_THROW(outdoor_omr::drawOverlay(image, {}, regions), std::invalid_argument);
+  EXPECT_THROW(omr::drawOverlay(image, {}, regions), std::invalid_argument);
 }
 
 int main(int argc, char** argv)

@@ -7,8 +7,8 @@
 #include "edge_patterns.h"
 #include "outdoor_omr/reference_fill.h"
 
-using outdoor_omr::Filter;
-using outdoor_omr::RegionSums;
+using omr::Filter;
+using omr::RegionSums;
 
 namespace
 {
@@ -75,8 +75,8 @@ TEST(ReferenceFill, filtersAgreeWithBruteForce)
     const cv::Mat image = noiseImage(size);
     for (const int radius : {1, 2})
     {
-      const cv::Mat gaussian = outdoor_omr::filterImage(image, Filter::gaussian, 2 * radius + 1);
-      const cv::Mat median = outdoor_omr::filterImage(image, Filter::median, 2 * radius + 1);
+      const cv::Mat gaussian = omr::filterImage(image, Filter::gaussian, 2 * radius + 1);
+      const cv::Mat median = omr::filterImage(image, Filter::median, 2 * radius + 1);
       for (int y = 0; y < size.height; ++y)
       {
         for (int x = 0; x < size.width; ++x)
@@ -96,7 +96,7 @@ TEST(ReferenceFill, edgesAgreeWithBruteForceAlsoInARegionOfInterest)
 {
   const cv::Mat whole = noiseImage({40, 30});
   const cv::Mat image = whole(cv::Rect(5, 7, 21, 13));
-  const cv::Mat edges = outdoor_omr::edgeMask(image, 600);
+  const cv::Mat edges = omr::edgeMask(image, 600);
   for (int y = 0; y < image.rows; ++y)
   {
     for (int x = 0; x < image.cols; ++x)
@@ -115,9 +115,9 @@ TEST(ReferenceFill, labelsAreTheComponentsOfOpenCVNamedByTheirFirstPixel)
 {
   for (const cv::Size& size : {cv::Size(1, 1), cv::Size(1, 9), cv::Size(9, 1), cv::Size(64, 33), cv::Size(101, 67)})
   {
-    for (const auto& pattern : outdoor_omr::edgePatterns(size))
+    for (const auto& pattern : omr::edgePatterns(size))
     {
-      const cv::Mat labels = outdoor_omr::labelRegions(pattern.edges);
+      const cv::Mat labels = omr::labelRegions(pattern.edges);
       cv::Mat components;
       cv::connectedComponents(pattern.edges == 0, components, 4, CV_32S);
       std::map<int, int> first_pixel;
@@ -133,10 +133,10 @@ TEST(ReferenceFill, labelsAreTheComponentsOfOpenCVNamedByTheirFirstPixel)
 
 TEST(ReferenceFill, sumsAgreeWithOpenCVAndWithEachPixel)
 {
-  const cv::Mat edges = outdoor_omr::noiseEdges({97, 61}, 0.4);
+  const cv::Mat edges = omr::noiseEdges({97, 61}, 0.4);
   const cv::Mat image = noiseImage(edges.size());
-  const cv::Mat labels = outdoor_omr::labelRegions(edges);
-  const std::vector<RegionSums> sums = outdoor_omr::sumRegions(image, edges, labels);
+  const cv::Mat labels = omr::labelRegions(edges);
+  const std::vector<RegionSums> sums = omr::sumRegions(image, edges, labels);
   cv::Mat components;
   cv::Mat stats;
   cv::Mat centers;
@@ -146,7 +146,7 @@ TEST(ReferenceFill, sumsAgreeWithOpenCVAndWithEachPixel)
   {
     const cv::Mat inside = labels == region.label;
     const int component = components.at<int>(region.label / edges.cols, region.label % edges.cols);
-    const outdoor_omr::Region data = outdoor_omr::toRegion(region);
+    const omr::Region data = omr::toRegion(region);
     EXPECT_EQ(stats.at<int>(component, cv::CC_STAT_AREA), data.area);
     EXPECT_EQ(cv::Rect(stats.at<int>(component, cv::CC_STAT_LEFT), stats.at<int>(component, cv::CC_STAT_TOP),
                        stats.at<int>(component, cv::CC_STAT_WIDTH), stats.at<int>(component, cv::CC_STAT_HEIGHT)),
@@ -181,14 +181,14 @@ TEST(ReferenceFill, refusesWrongInput)
   const cv::Mat image(4, 5, CV_8UC3, cv::Scalar::all(0));
   const cv::Mat edges(4, 5, CV_8UC1, cv::Scalar::all(0));
   const cv::Mat labels(4, 5, CV_32SC1, cv::Scalar::all(0));
-  EXPECT_THROW(outdoor_omr::filterImage(cv::Mat(), Filter::none, 3), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::filterImage(edges, Filter::none, 3), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::filterImage(image, Filter::gaussian, 4), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::edgeMask(edges, 10), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::labelRegions(image), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::labelRegions(cv::Mat()), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::sumRegions(image, edges, edges), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::sumRegions(image, edges(cv::Rect(0, 0, 4, 4)), labels), std::invalid_argument);
+  EXPECT_THROW(omr::filterImage(cv::Mat(), Filter::none, 3), std::invalid_argument);
+  EXPECT_THROW(omr::filterImage(edges, Filter::none, 3), std::invalid_argument);
+  EXPECT_THROW(omr::filterImage(image, Filter::gaussian, 4), std::invalid_argument);
+  EXPECT_THROW(omr::edgeMask(edges, 10), std::invalid_argument);
+  EXPECT_THROW(omr::labelRegions(image), std::invalid_argument);
+  EXPECT_THROW(omr::labelRegions(cv::Mat()), std::invalid_argument);
+  EXPECT_THROW(omr::sumRegions(image, edges, edges), std::invalid_argument);
+  EXPECT_THROW(omr::sumRegions(image, edges(cv::Rect(0, 0, 4, 4)), labels), std::invalid_argument);
 }
 
 int main(int argc, char** argv)

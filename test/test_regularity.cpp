@@ -8,9 +8,9 @@
 #include "outdoor_omr/regularity.h"
 #include "render.h"
 
-using outdoor_omr::Region;
-using outdoor_omr::RegionMap;
-using outdoor_omr::Regularity;
+using omr::Region;
+using omr::RegionMap;
+using omr::Regularity;
 
 namespace
 {
@@ -19,7 +19,7 @@ constexpr int COLS = 7;
 
 cv::Matx33d board()
 {
-  return outdoor_omr::test::boardHomography(ROWS, COLS, {200, 150}, 30, 15, 35);
+  return omr::test::boardHomography(ROWS, COLS, {200, 150}, 30, 15, 35);
 }
 
 std::vector<cv::Point2f> quads()
@@ -31,7 +31,7 @@ std::vector<cv::Point2f> quads()
     {
       for (const cv::Point& at : {cv::Point(j, i), cv::Point(j + 1, i), cv::Point(j + 1, i + 1), cv::Point(j, i + 1)})
       {
-        corners.emplace_back(outdoor_omr::test::project(board(), at.x, at.y));
+        corners.emplace_back(omr::test::project(board(), at.x, at.y));
       }
     }
   }
@@ -41,7 +41,7 @@ std::vector<cv::Point2f> quads()
 Region regionAt(double col, double row, int area = 600)
 {
   Region region;
-  region.center = outdoor_omr::test::project(board(), col + 0.5, row + 0.5);
+  region.center = omr::test::project(board(), col + 0.5, row + 0.5);
   region.area = area;
   return region;
 }
@@ -67,11 +67,11 @@ TEST(Regularity, outerSquaresAreTheSharpestVerticesOfTheHull)
   {
     centers.emplace_back(region.center);
   }
-  const std::vector<cv::Point2f> outer = outdoor_omr::findOuterSquares(centers);
+  const std::vector<cv::Point2f> outer = omr::findOuterSquares(centers);
   ASSERT_EQ(4u, outer.size());
   for (const cv::Point& corner : {cv::Point(0, 0), cv::Point(6, 0), cv::Point(6, 4), cv::Point(0, 4)})
   {
-    const cv::Point2f truth = outdoor_omr::test::project(board(), corner.x + 0.5, corner.y + 0.5);
+    const cv::Point2f truth = omr::test::project(board(), corner.x + 0.5, corner.y + 0.5);
     EXPECT_TRUE(
         std::any_of(outer.begin(), outer.end(), [&](const auto& found) { return cv::norm(found - truth) < 1; }));
   }
@@ -79,11 +79,11 @@ TEST(Regularity, outerSquaresAreTheSharpestVerticesOfTheHull)
 
 TEST(Regularity, tooFewCentersOrATriangleHaveNoOuterSquares)
 {
-  EXPECT_TRUE(outdoor_omr::findOuterSquares({}).empty());
-  EXPECT_TRUE(outdoor_omr::findOuterSquares({{0, 0}, {1, 0}, {0, 1}}).empty());
-  EXPECT_TRUE(outdoor_omr::findOuterSquares({{0, 0}, {50, 0}, {100, 0}, {0, 80}, {20, 20}}).empty());
+  EXPECT_TRUE(omr::findOuterSquares({}).empty());
+  EXPECT_TRUE(omr::findOuterSquares({{0, 0}, {1, 0}, {0, 1}}).empty());
+  EXPECT_TRUE(omr::findOuterSquares({{0, 0}, {50, 0}, {100, 0}, {0, 80}, {20, 20}}).empty());
   // A kite: its opposite angles differ by more than perspective makes them.
-  EXPECT_TRUE(outdoor_omr::findOuterSquares({{0, 0}, {20, -20}, {100, 0}, {20, 20}}).empty());
+  EXPECT_TRUE(omr::findOuterSquares({{0, 0}, {20, -20}, {100, 0}, {20, 20}}).empty());
 }
 
 TEST(Regularity, forecastsTheSquaresUnderPerspective)
@@ -91,21 +91,21 @@ TEST(Regularity, forecastsTheSquaresUnderPerspective)
   std::vector<cv::Point2f> outer;
   for (const cv::Point& corner : {cv::Point(0, 0), cv::Point(6, 0), cv::Point(6, 4), cv::Point(0, 4)})
   {
-    outer.emplace_back(outdoor_omr::test::project(board(), corner.x + 0.5, corner.y + 0.5));
+    outer.emplace_back(omr::test::project(board(), corner.x + 0.5, corner.y + 0.5));
   }
-  const std::vector<cv::Point2f> forecast = outdoor_omr::forecastSquares(outer, ROWS, COLS);
+  const std::vector<cv::Point2f> forecast = omr::forecastSquares(outer, ROWS, COLS);
   ASSERT_EQ(35u, forecast.size());
-  EXPECT_LT(cv::norm(forecast[2 * COLS + 3] - cv::Point2f(outdoor_omr::test::project(board(), 3.5, 2.5))), 0.05);
-  EXPECT_THROW(outdoor_omr::forecastSquares(outer, 1, 7), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::forecastSquares({}, 5, 7), std::invalid_argument);
+  EXPECT_LT(cv::norm(forecast[2 * COLS + 3] - cv::Point2f(omr::test::project(board(), 3.5, 2.5))), 0.05);
+  EXPECT_THROW(omr::forecastSquares(outer, 1, 7), std::invalid_argument);
+  EXPECT_THROW(omr::forecastSquares({}, 5, 7), std::invalid_argument);
 }
 
 TEST(Regularity, countsWhatIsThereAndAcceptsHoles)
 {
   RegionMap map = allSquares();
-  EXPECT_DOUBLE_EQ(1, outdoor_omr::checkRegularity(quads(), map).share);
+  EXPECT_DOUBLE_EQ(1, omr::checkRegularity(quads(), map).share);
   map.regions.erase(map.regions.begin() + 10);
-  const Regularity hole = outdoor_omr::checkRegularity(quads(), map);
+  const Regularity hole = omr::checkRegularity(quads(), map);
   EXPECT_FALSE(hole.seen[10]);
   EXPECT_DOUBLE_EQ(34. / 35, hole.share);
 }
@@ -114,20 +114,20 @@ TEST(Regularity, refusesAPlaceThatTwoRegionsClaim)
 {
   RegionMap map = allSquares();
   map.regions.push_back(regionAt(2.1, 1));
-  const Regularity twice = outdoor_omr::checkRegularity(quads(), map);
+  const Regularity twice = omr::checkRegularity(quads(), map);
   EXPECT_EQ(1, twice.claimed_twice);
   EXPECT_FALSE(twice.seen[COLS + 2]);
   // A speck or the whole sheet claims nothing.
   map = allSquares();
   map.regions.push_back(regionAt(2.1, 1, 5));
   map.regions.push_back(regionAt(2.1, 1, 100000));
-  EXPECT_EQ(0, outdoor_omr::checkRegularity(quads(), map).claimed_twice);
+  EXPECT_EQ(0, omr::checkRegularity(quads(), map).claimed_twice);
 }
 
 TEST(Regularity, nothingIsNotRegular)
 {
-  EXPECT_EQ(0, outdoor_omr::checkRegularity(quads(), RegionMap()).share);
-  EXPECT_EQ(0, outdoor_omr::checkRegularity({}, allSquares()).share);
+  EXPECT_EQ(0, omr::checkRegularity(quads(), RegionMap()).share);
+  EXPECT_EQ(0, omr::checkRegularity({}, allSquares()).share);
 }
 
 int main(int argc, char** argv)

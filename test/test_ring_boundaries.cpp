@@ -4,7 +4,7 @@
 
 #include "render_target.h"
 
-using outdoor_omr::Boundary;
+using omr::Boundary;
 
 namespace
 {
@@ -12,15 +12,15 @@ namespace
 std::vector<Boundary> boundariesOf(const TargetScene& scene, const std::vector<double>& known = {})
 {
   const cv::Mat image = renderTarget(scene);
-  outdoor_omr::RingFamily family;
+  omr::RingFamily family;
   family.center = projectedCenter(scene);
   const double reach = scene.radii.back() * 1.5;
-  outdoor_omr::RingProfile profile;
-  outdoor_omr::sampleProfile(image, family, reach, profile);
-  outdoor_omr::EdgelMap map(image);
-  std::vector<outdoor_omr::RadialEdgel> edgels;
-  outdoor_omr::collectRadialEdgels(map, family, reach, .9, edgels);
-  return outdoor_omr::findBoundaries(profile, outdoor_omr::AngularSupport(edgels, reach), known);
+  omr::RingProfile profile;
+  omr::sampleProfile(image, family, reach, profile);
+  omr::EdgelMap map(image);
+  std::vector<omr::RadialEdgel> edgels;
+  omr::collectRadialEdgels(map, family, reach, .9, edgels);
+  return omr::findBoundaries(profile, omr::AngularSupport(edgels, reach), known);
 }
 
 void expectRadii(const TargetScene& scene)
@@ -69,7 +69,7 @@ TEST(RingBoundaries, mostDirectionsAgree)
   {
     EXPECT_GT(boundary.agreement, .95);
     EXPECT_GT(boundary.coherence, .95);
-    EXPECT_GT(outdoor_omr::share(boundary.supported), .95);
+    EXPECT_GT(omr::share(boundary.supported), .95);
   }
 }
 
@@ -86,11 +86,11 @@ TEST(RingBoundaries, noneInNoise)
   cv::Mat image(200, 200, CV_8UC3);
   cv::RNG random(11);
   random.fill(image, cv::RNG::NORMAL, 120, 30);
-  outdoor_omr::RingFamily family;
+  omr::RingFamily family;
   family.center = {100, 100};
-  outdoor_omr::RingProfile profile;
-  outdoor_omr::sampleProfile(image, family, 80, profile);
-  EXPECT_TRUE(outdoor_omr::findBoundaries(profile, outdoor_omr::AngularSupport({}, 80), {}).empty());
+  omr::RingProfile profile;
+  omr::sampleProfile(image, family, 80, profile);
+  EXPECT_TRUE(omr::findBoundaries(profile, omr::AngularSupport({}, 80), {}).empty());
 }
 
 int main(int argc, char** argv)

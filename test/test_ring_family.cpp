@@ -5,15 +5,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-using outdoor_omr::BoundaryPoint;
-using outdoor_omr::RingFamily;
+using omr::BoundaryPoint;
+using omr::RingFamily;
 
 namespace
 {
 RingFamily tiltedFamily()
 {
   RingFamily family;
-  outdoor_omr::familyFromMoments({320.3, 240.7}, 900, 200, 500, family);
+  omr::familyFromMoments({320.3, 240.7}, 900, 200, 500, family);
   family.hx = .0012;
   family.hy = -.0007;
   return family;
@@ -51,7 +51,7 @@ TEST(RingFamily, momentsGiveShapeOfDeterminantOne)
   EXPECT_NEAR(900. / 500, (family.a * family.a + family.b * family.b) / (family.b * family.b + family.d * family.d),
               1e-9);
   RingFamily none;
-  EXPECT_FALSE(outdoor_omr::familyFromMoments({0, 0}, 1, 2, 1, none));
+  EXPECT_FALSE(omr::familyFromMoments({0, 0}, 1, 2, 1, none));
 }
 
 TEST(RingFamily, ellipseIsTheCirclesImage)
@@ -76,9 +76,9 @@ TEST(RingFamily, refinementFindsTheTrueCentre)
   const std::vector<double> true_radii = {20, 44, 60, 90};
   const std::vector<BoundaryPoint> points = pointsOf(truth, true_radii, .1);
   RingFamily family;
-  outdoor_omr::familyFromMoments({323, 239}, 850, 170, 520, family);
+  omr::familyFromMoments({323, 239}, 850, 170, 520, family);
   std::vector<double> radii = {21, 43, 61, 88};
-  const double rms = outdoor_omr::refineFamily(points, true, family, radii);
+  const double rms = omr::refineFamily(points, true, family, radii);
   EXPECT_LT(rms, .15);
   EXPECT_NEAR(0, cv::norm(family.center - truth.center), .05);
   EXPECT_NEAR(90, radii[3], .1);
@@ -96,7 +96,7 @@ TEST(RingFamily, refinementSurvivesOutliers)
   RingFamily family = truth;
   family.center += cv::Point2d(1, -1);
   std::vector<double> radii = true_radii;
-  outdoor_omr::refineFamily(points, true, family, radii);
+  omr::refineFamily(points, true, family, radii);
   EXPECT_NEAR(0, cv::norm(family.center - truth.center), .1);
 }
 
@@ -104,7 +104,7 @@ TEST(RingFamily, refusesTooFewPoints)
 {
   RingFamily family;
   std::vector<double> radii = {10};
-  EXPECT_TRUE(std::isinf(outdoor_omr::refineFamily({}, true, family, radii)));
+  EXPECT_TRUE(std::isinf(omr::refineFamily({}, true, family, radii)));
   EXPECT_EQ(10, radii[0]);
 }
 

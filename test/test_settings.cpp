@@ -6,9 +6,9 @@
 
 #include "outdoor_omr/settings.h"
 
-using outdoor_omr::FillMethod;
-using outdoor_omr::Filter;
-using outdoor_omr::Settings;
+using omr::FillMethod;
+using omr::Filter;
+using omr::Settings;
 
 namespace
 {
@@ -41,12 +41,12 @@ TEST(Settings, defaultsAreInBounds)
 TEST(Settings, everyParameterReadsBackWhatWasSet)
 {
   const Settings defaults;
-  for (const outdoor_omr::Parameter& parameter : outdoor_omr::parameters())
+  for (const omr::Parameter& parameter : omr::parameters())
   {
     Settings settings;
-    const std::string value = outdoor_omr::getParameter(defaults, parameter.name);
-    outdoor_omr::setParameter(settings, parameter.name, value);
-    EXPECT_EQ(value, outdoor_omr::getParameter(settings, parameter.name)) << parameter.name;
+    const std::string value = omr::getParameter(defaults, parameter.name);
+    omr::setParameter(settings, parameter.name, value);
+    EXPECT_EQ(value, omr::getParameter(settings, parameter.name)) << parameter.name;
     EXPECT_FALSE(parameter.description.empty()) << parameter.name;
   }
 }
@@ -54,12 +54,12 @@ TEST(Settings, everyParameterReadsBackWhatWasSet)
 TEST(Settings, refusesValuesOutOfBoundsAndKeepsTheOld)
 {
   Settings settings;
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "sobel_threshold", "0"), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "sobel_threshold", "2041"), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "filter_size", "4"), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "sobel_threshold", "12x"), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "region_max_share", "nan"), std::invalid_argument);
-  EXPECT_THROW(outdoor_omr::setParameter(settings, "detect_targets", "1"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "sobel_threshold", "0"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "sobel_threshold", "2041"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "filter_size", "4"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "sobel_threshold", "12x"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "region_max_share", "nan"), std::invalid_argument);
+  EXPECT_THROW(omr::setParameter(settings, "detect_targets", "1"), std::invalid_argument);
   EXPECT_EQ(Settings().sobel_threshold, settings.sobel_threshold);
   EXPECT_EQ(Settings().filter_size, settings.filter_size);
 }
@@ -68,17 +68,17 @@ TEST(Settings, saysWhatIsWrongAndWhatIsExpected)
 {
   Settings settings;
   EXPECT_EQ("'filter' is one of none, gaussian, median, not 'gauss'",
-            messageOf([&] { outdoor_omr::setParameter(settings, "filter", "gauss"); }));
+            messageOf([&] { omr::setParameter(settings, "filter", "gauss"); }));
   EXPECT_EQ("there is no parameter 'sobel_treshold'; the nearest name is 'sobel_threshold'",
-            messageOf([&] { outdoor_omr::setParameter(settings, "sobel_treshold", "3"); }));
+            messageOf([&] { omr::setParameter(settings, "sobel_treshold", "3"); }));
   EXPECT_EQ("'sobel_threshold' = 0 is out of bounds: 1 to 2040 grey levels",
-            messageOf([&] { outdoor_omr::setParameter(settings, "sobel_threshold", "0"); }));
+            messageOf([&] { omr::setParameter(settings, "sobel_threshold", "0"); }));
 }
 
 TEST(Settings, readsYaml)
 {
   Settings settings;
-  outdoor_omr::loadSettings(settings, writeFile("filter: median\nsobel_threshold: 60\ndetect_targets: false\n"));
+  omr::loadSettings(settings, writeFile("filter: median\nsobel_threshold: 60\ndetect_targets: false\n"));
   EXPECT_EQ(Filter::median, settings.filter);
   EXPECT_EQ(60, settings.sobel_threshold);
   EXPECT_FALSE(settings.detect_targets);
@@ -88,13 +88,13 @@ TEST(Settings, yamlErrorsNameFileAndLineAndChangeNothing)
 {
   Settings settings;
   const std::string file = writeFile("filter: median\n\nsobel_threshold: many\n");
-  const std::string message = messageOf([&] { outdoor_omr::loadSettings(settings, file); });
+  const std::string message = messageOf([&] { omr::loadSettings(settings, file); });
   EXPECT_EQ(file + ":3: 'sobel_threshold' is a whole number, not 'many'", message);
   EXPECT_EQ(Settings().filter, settings.filter);
-  EXPECT_NE("", messageOf([&] { outdoor_omr::loadSettings(settings, writeFile("- 1\n- 2\n")); }));
-  EXPECT_NE("", messageOf([&] { outdoor_omr::loadSettings(settings, writeFile("filter: [median\n")); }));
-  EXPECT_NE("", messageOf([&] { outdoor_omr::loadSettings(settings, writeFile("filter: [median]\n")); }));
-  EXPECT_NE("", messageOf([&] { outdoor_omr::loadSettings(settings, "/nonexistent.yaml"); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("- 1\n- 2\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median]\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, "/nonexistent.yaml"); }));
 }
 
 int main(int argc, char** argv)

@@ -7,10 +7,10 @@
 #include "sheet.h"
 #include "sheet_writers.h"
 
-using outdoor_omr::arrangeSheet;
-using outdoor_omr::Shape;
-using outdoor_omr::Sheet;
-using outdoor_omr::SheetContent;
+using omr::arrangeSheet;
+using omr::Shape;
+using omr::Sheet;
+using omr::SheetContent;
 
 namespace
 {
@@ -66,17 +66,17 @@ std::vector<std::vector<double>> numbersOf(const std::string& text, const std::s
 
 TEST(Sheet, parsesSizes)
 {
-  EXPECT_EQ(cv::Size(10, 7), outdoor_omr::parseCheckerboard("7x10"));
-  EXPECT_EQ(cv::Size(5, 7), outdoor_omr::parseCheckerboard("7x5"));
+  EXPECT_EQ(cv::Size(10, 7), omr::parseCheckerboard("7x10"));
+  EXPECT_EQ(cv::Size(5, 7), omr::parseCheckerboard("7x5"));
   for (const char* wrong : {"", "7", "x", "7x", "4x9", "5x6", "7x22", "-7x10", "7x10x3", "7 by 10", "7x10mm", "1e9x7"})
   {
-    EXPECT_THROW(outdoor_omr::parseCheckerboard(wrong), std::invalid_argument) << wrong;
+    EXPECT_THROW(omr::parseCheckerboard(wrong), std::invalid_argument) << wrong;
   }
-  EXPECT_EQ(cv::Size2d(297, 420), outdoor_omr::parsePage("A3"));
-  EXPECT_EQ(cv::Size2d(300.5, 200), outdoor_omr::parsePage("300.5x200"));
+  EXPECT_EQ(cv::Size2d(297, 420), omr::parsePage("A3"));
+  EXPECT_EQ(cv::Size2d(300.5, 200), omr::parsePage("300.5x200"));
   for (const char* wrong : {"", "A9", "a4", "300", "x", "0x100", "-300x200", "300x200x100", "nanx200", "1e9x200"})
   {
-    EXPECT_THROW(outdoor_omr::parsePage(wrong), std::invalid_argument) << wrong;
+    EXPECT_THROW(omr::parsePage(wrong), std::invalid_argument) << wrong;
   }
 }
 
@@ -125,7 +125,7 @@ TEST(Sheet, markersKeepApartAndOnThePage)
   content.checkerboards.push_back({9, 6});
   content.targets = {"RWP", "PGB", "GRGB"};
   content.ring = 8;
-  const Sheet sheet = arrangeSheet(content, outdoor_omr::parsePage("A3"));
+  const Sheet sheet = arrangeSheet(content, omr::parsePage("A3"));
   std::vector<cv::Rect2d> circles;
   for (const Shape& shape : sheet.shapes)
   {
@@ -177,27 +177,27 @@ TEST(Sheet, refusesMarkersThatCannotBeRead)
 
 TEST(Sheet, advisesAgainstBoardsThatLookTheSameUpsideDown)
 {
-  EXPECT_TRUE(outdoor_omr::adviceFor(boardOf(7, 10, 10)).empty());
-  EXPECT_EQ(1U, outdoor_omr::adviceFor(boardOf(7, 9, 10)).size());
-  EXPECT_EQ(1U, outdoor_omr::adviceFor(boardOf(6, 8, 10)).size());
+  EXPECT_TRUE(omr::adviceFor(boardOf(7, 10, 10)).empty());
+  EXPECT_EQ(1U, omr::adviceFor(boardOf(7, 9, 10)).size());
+  EXPECT_EQ(1U, omr::adviceFor(boardOf(6, 8, 10)).size());
 }
 
 TEST(SheetWriters, svgIsInMillimetres)
 {
-  const std::string svg = outdoor_omr::toSvg(arrangeSheet(boardOf(5, 7, 15), A4));
+  const std::string svg = omr::toSvg(arrangeSheet(boardOf(5, 7, 15), A4));
   EXPECT_NE(std::string::npos, svg.find("width=\"210mm\" height=\"297mm\" viewBox=\"0 0 210 297\""));
   EXPECT_EQ(18U,
             numbersOf(svg, "<rect fill=\"rgb\\(0,0,0\\)\" x=\"([0-9.]+)\" y=\"([0-9.]+)\" width=\"15\" height=\"15\"")
                 .size());
   EXPECT_EQ(1U, numbersOf(svg, "<rect fill=\"rgb\\(0,0,0\\)\" x=\"([0-9.]+)\" y=\"([0-9.]+)\" width=\"100\"").size());
-  const std::string target = outdoor_omr::toSvg(arrangeSheet(targetOf("RPG", 9), A4));
+  const std::string target = omr::toSvg(arrangeSheet(targetOf("RPG", 9), A4));
   EXPECT_EQ((std::vector<std::vector<double>>{{0, 160, 0, 27}, {0, 0, 0, 18}, {255, 0, 0, 9}}),
             numbersOf(target, "<circle fill=\"rgb\\((\\d+),(\\d+),(\\d+)\\)\" .* r=\"([0-9.]+)\""));
 }
 
 TEST(SheetWriters, pdfIsInMillimetres)
 {
-  const std::string pdf = outdoor_omr::toPdf(arrangeSheet(boardOf(5, 7, 15), A4));
+  const std::string pdf = omr::toPdf(arrangeSheet(boardOf(5, 7, 15), A4));
   const auto media_box = numbersOf(pdf, "/MediaBox \\[0 0 ([0-9.]+) ([0-9.]+)\\]");
   ASSERT_EQ(1U, media_box.size());
   EXPECT_NEAR(210 / 25.4 * 72, media_box[0][0], 1e-3);
@@ -212,7 +212,7 @@ TEST(SheetWriters, pdfIsInMillimetres)
 
 TEST(SheetWriters, pdfObjectsLieWhereTheTableSays)
 {
-  const std::string pdf = outdoor_omr::toPdf(arrangeSheet(targetOf("RWPGB", 12), A4));
+  const std::string pdf = omr::toPdf(arrangeSheet(targetOf("RWPGB", 12), A4));
   const auto start = numbersOf(pdf, "startxref\n(\\d+)\n%%EOF");
   ASSERT_EQ(1U, start.size());
   EXPECT_EQ("xref\n0 6\n", pdf.substr(static_cast<std::size_t>(start[0][0]), 9));
@@ -232,7 +232,7 @@ TEST(SheetWriters, imageHasTheColorsAtTheirPlaces)
 {
   const double dpi = 127;  // 5 px a mm
   const Sheet sheet = arrangeSheet(targetOf("RWPGB", 12), A4);
-  const cv::Mat image = outdoor_omr::toImage(sheet, dpi);
+  const cv::Mat image = omr::toImage(sheet, dpi);
   EXPECT_EQ(cv::Size(1050, 1485), image.size());
   const cv::Point center(5 * sheet.shapes[1].position);
   const std::vector<cv::Vec3b> colors = {{0, 0, 255}, WHITE, BLACK, {0, 160, 0}, {255, 0, 0}, WHITE};
@@ -248,7 +248,7 @@ TEST(SheetWriters, imageCountsTheShareOfPixelsOnARim)
   Sheet sheet;
   sheet.page = {100, 100};
   sheet.shapes = {{Shape::Kind::rectangle, BLACK, {10.5, 20}, {10, 10.25}, ""}};
-  const cv::Mat image = outdoor_omr::toImage(sheet, 25.4);  // 1 px a mm
+  const cv::Mat image = omr::toImage(sheet, 25.4);  // 1 px a mm
   EXPECT_EQ(WHITE, image.at<cv::Vec3b>(25, 9));
   EXPECT_NEAR(128, image.at<cv::Vec3b>(25, 10)[0], 1);
   EXPECT_EQ(BLACK, image.at<cv::Vec3b>(25, 11));
@@ -266,7 +266,7 @@ TEST(SheetWriters, refusesAbsurdResolutions)
   const Sheet sheet = arrangeSheet(targetOf("RPG", 9), A4);
   for (const double dpi : {0., -300., 1e6, std::numeric_limits<double>::quiet_NaN()})
   {
-    EXPECT_THROW(outdoor_omr::toImage(sheet, dpi), std::invalid_argument) << dpi;
+    EXPECT_THROW(omr::toImage(sheet, dpi), std::invalid_argument) << dpi;
   }
 }
 

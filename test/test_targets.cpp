@@ -6,26 +6,26 @@
 #include "outdoor_omr/targets.h"
 #include "render_target.h"
 
-using outdoor_omr::Settings;
-using outdoor_omr::Target;
+using omr::Settings;
+using omr::Target;
 
 namespace
 {
 std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
 {
-  const cv::Mat filtered = outdoor_omr::filterImage(image, settings.filter, settings.filter_size);
-  const cv::Mat edges = outdoor_omr::edgeMask(filtered, settings.sobel_threshold);
-  outdoor_omr::RegionMap regions;
+  const cv::Mat filtered = omr::filterImage(image, settings.filter, settings.filter_size);
+  const cv::Mat edges = omr::edgeMask(filtered, settings.sobel_threshold);
+  omr::RegionMap regions;
   regions.size = image.size();
-  for (const auto& sums : outdoor_omr::sumRegions(filtered, edges, outdoor_omr::labelRegions(edges)))
+  for (const auto& sums : omr::sumRegions(filtered, edges, omr::labelRegions(edges)))
   {
     if (static_cast<int>(sums.area) >= settings.region_min_area &&
         sums.area <= settings.region_max_share * image.total())
     {
-      regions.regions.push_back(outdoor_omr::toRegion(sums));
+      regions.regions.push_back(omr::toRegion(sums));
     }
   }
-  return outdoor_omr::findTargets(outdoor_omr::makeFrame(image), regions, settings);
+  return omr::findTargets(omr::makeFrame(image), regions, settings);
 }
 
 void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1)
@@ -213,8 +213,8 @@ TEST(Targets, survivesTinyImages)
   {
     EXPECT_TRUE(find(cv::Mat(size, CV_8UC3, cv::Scalar::all(90))).empty());
   }
-  outdoor_omr::Frame frame;
-  EXPECT_TRUE(outdoor_omr::findTargets(frame, {}, Settings()).empty());
+  omr::Frame frame;
+  EXPECT_TRUE(omr::findTargets(frame, {}, Settings()).empty());
 }
 
 int main(int argc, char** argv)

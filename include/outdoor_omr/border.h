@@ -5,7 +5,7 @@
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/lattice_side.h"
 
-namespace outdoor_omr
+namespace omr
 {
 constexpr int BORDER_WINDOW = 3;  ///< nodes, of a prediction beside the lattice
 
@@ -35,6 +35,6 @@ BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, i
 /** The same for any line. @param window of the predictions [nodes]. */
 BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * One checkerboard. Positions in pixels, pixel (0, 0) has its centre at (0, 0).
@@ -40,6 +40,6 @@ struct Checkerboard
   bool size_certain = true;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

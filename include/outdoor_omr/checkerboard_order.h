@@ -7,7 +7,7 @@
 #include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/lattice.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * A board from its refined lattice, in the order that Checkerboard promises; regularity and size_certain are left.
@@ -24,6 +24,6 @@ std::vector<cv::Point2f> squareCorners(const Lattice& lattice);
 /** Outline of the board [px], a point for every square along its sides, clockwise; extrapolated. */
 std::vector<cv::Point2f> boardOutline(const Lattice& lattice);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -8,7 +8,7 @@
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Finds all checkerboards of 5x7 to 21x21 squares, their size unknown beforehand (paper, section 3.4).
@@ -19,6 +19,6 @@ namespace outdoor_omr
  */
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -6,7 +6,7 @@
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** What the image shows where a corner of squares was predicted. */
 struct CornerLook
@@ -64,6 +64,6 @@ class CornerLooker
   int budget_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

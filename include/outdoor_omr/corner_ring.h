@@ -7,7 +7,7 @@
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A prediction on the level of the pyramid where its square is at most 24 px wide; squares under 5 px use the
  * unfiltered image: recall at 2.5 to 3.5 px grows from 73 to 91 % (120 boards at distance). */
@@ -54,6 +54,6 @@ float ringCorrelation(const Ring& ring, const std::array<float, QUADRANTS>& patt
 /** Logarithm of a grey value, offset so that the noise of the darkest pixels stays small. */
 float greyLogarithm(float grey);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

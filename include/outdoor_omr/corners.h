@@ -7,7 +7,7 @@
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/lattice.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * The point through which the edges of the squares run (Foerstner & Guelch 1987): least squares over the gradients
@@ -31,6 +31,6 @@ cv::Point2f refineCorner(const cv::Mat& grey, const LocalFrame& corner);
  */
 std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

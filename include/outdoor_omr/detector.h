@@ -12,7 +12,7 @@
 #include "outdoor_omr/step_time.h"
 #include "outdoor_omr/target.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** All markers of one image. */
 struct Markers
@@ -46,6 +46,6 @@ class Detector
   RegionMap regions_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -11,7 +11,7 @@
 #include "outdoor_omr/settings.h"
 #include "outdoor_omr/step_time.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** The OpenCL device is absent, or it failed: the message carries the driver's words. */
 class DeviceError : public std::runtime_error
@@ -79,6 +79,6 @@ class FillPipeline
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

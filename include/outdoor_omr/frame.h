@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** One image in the forms that the detectors sample. Pixel (0, 0) has its centre at (0, 0) on every level. */
 struct Frame
@@ -24,6 +24,6 @@ struct Frame
  */
 Frame makeFrame(const cv::Mat& bgr);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -7,7 +7,7 @@
 #include "outdoor_omr/local_frame.h"
 #include "outdoor_omr/region.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A place where a corner of four squares may be, with the lattice around it. */
 struct Seed
@@ -29,6 +29,6 @@ struct Seed
  */
 std::vector<Seed> pairNeighbours(const Frame& frame, const RegionMap& regions);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

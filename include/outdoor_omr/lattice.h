@@ -8,7 +8,7 @@
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A node of the lattice: a place for an inner corner. */
 struct LatticeNode
@@ -119,6 +119,6 @@ struct Evidence
  */
 Evidence latticeEvidence(const Lattice& lattice);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -7,7 +7,7 @@
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/lattice_side.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Takes back corners that a smooth surface through all of them does not admit, as the edge of a shadow or the next
  * object made them. */
@@ -30,6 +30,6 @@ enum class SideEvidence
  */
 std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

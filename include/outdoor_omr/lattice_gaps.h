@@ -4,7 +4,7 @@
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/lattice.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Finds corners beyond what hides a part of the board, up to three squares away; not across a border, where the next
  * board may begin. */
@@ -14,6 +14,6 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker);
  */
 void splitAtBorders(Lattice& lattice, const Frame& frame);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

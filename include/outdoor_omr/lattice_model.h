@@ -7,7 +7,7 @@
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * One smooth surface through all corners of a lattice: a homography, and a polynomial for what lens and curved plate
@@ -63,6 +63,6 @@ class LatticeModel
   double median_ = 0;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

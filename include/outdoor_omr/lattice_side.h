@@ -5,7 +5,7 @@
 
 #include "outdoor_omr/lattice.h"
 
-namespace outdoor_omr
+namespace omr
 {
 enum Side
 {
@@ -45,6 +45,6 @@ void dropLine(Lattice& lattice, Side side);
 /** Makes the box larger by lines of hidden corners. */
 void addLines(Lattice& lattice, Side side, int count);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

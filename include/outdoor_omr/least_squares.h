@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Weighted linear least squares for points of the plane: position = sum of coefficient * feature, by normal equations
  * on the stack, because a lattice solves thousands of them a frame. Features should be of size 1. */
@@ -79,6 +79,6 @@ class PointFit
   cv::Point2d right_[N] = {};
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

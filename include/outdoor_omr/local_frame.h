@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Affine image of the lattice around one node: its position and the steps to its neighbours along a row and a column,
  * all in pixels of the full image. */
@@ -66,6 +66,6 @@ inline float sampleGrey(const cv::Mat& grey, float x, float y)
   return (above[0] * (1 - a) + above[1] * a) * (1 - b) + (below[0] * (1 - a) + below[1] * a) * b;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

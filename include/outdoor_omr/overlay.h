@@ -5,7 +5,7 @@
 
 #include "outdoor_omr/detector.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Draws what was found (paper, section 3), readable from 640x480 to 4K: line widths and text grow with the image.
@@ -25,6 +25,6 @@ namespace outdoor_omr
  */
 cv::Mat drawOverlay(const cv::Mat& bgr, const Markers& markers, const RegionMap& regions);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

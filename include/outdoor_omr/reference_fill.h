@@ -7,7 +7,7 @@
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * The fill pipeline in plain C++: the oracle of the device code, and what runs where there is no OpenCL device.
@@ -55,6 +55,6 @@ cv::Mat labelRegions(const cv::Mat& edges);
  */
 std::vector<RegionSums> sumRegions(const cv::Mat& bgr, const cv::Mat& edges, const cv::Mat& labels);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

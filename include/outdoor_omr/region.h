@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Exact integer sums over the pixels of one contiguous region; every implementation delivers the same bits, so the
@@ -53,6 +53,6 @@ struct RegionMap
   cv::Mat labels;               ///< H x W, CV_32SC1, see labelRegions(); empty unless asked for
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

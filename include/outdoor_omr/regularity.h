@@ -6,7 +6,7 @@
 
 #include "outdoor_omr/region.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * The four outer squares of a board, from the centres of its regions (paper, section 3.4, steps 1 to 4): the convex
@@ -53,6 +53,6 @@ struct Regularity
  */
 Regularity checkRegularity(const std::vector<cv::Point2f>& quads, const RegionMap& regions);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

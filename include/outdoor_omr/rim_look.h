@@ -4,7 +4,7 @@
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** What the image shows where a board would end. */
 enum class RimLook
@@ -30,6 +30,6 @@ struct RimPlace
  */
 RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

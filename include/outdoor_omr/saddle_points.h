@@ -8,7 +8,7 @@
 #include "outdoor_omr/groups.h"
 #include "outdoor_omr/search_map.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Saddle points of the grey values that look the same after a half turn, as the corner of four squares does.
@@ -31,6 +31,6 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
  */
 std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, const SearchMap& open);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Where in the image a lattice may still be started: not on a board that was found, and not where starts failed. */
 class SearchMap
@@ -25,6 +25,6 @@ class SearchMap
   cv::Mat failures_;              // CV_8UC1, one value a cell
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

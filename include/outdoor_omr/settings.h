@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Prefilter of the fill pipeline (paper, Table 2: the factor "algorithm filter"). */
 enum class Filter
@@ -81,6 +81,6 @@ std::string getParameter(const Settings& settings, const std::string& name);
  */
 void loadSettings(Settings& settings, const std::string& file);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

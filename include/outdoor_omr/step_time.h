@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace outdoor_omr
+namespace omr
 {
 /** How long one step of the detector took. */
 struct StepTime
@@ -12,6 +12,6 @@ struct StepTime
   double milliseconds = 0;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

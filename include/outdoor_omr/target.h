@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** One target of concentric rings (paper, section 3.3). Positions in pixels, pixel (0, 0) has its centre at (0, 0). */
 struct Target
@@ -20,6 +20,6 @@ struct Target
   std::vector<cv::RotatedRect> rings;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -8,7 +8,7 @@
 #include "outdoor_omr/settings.h"
 #include "outdoor_omr/target.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Finds all targets of concentric colour rings and reads their colours (paper, section 3.3).
@@ -19,6 +19,6 @@ namespace outdoor_omr
  */
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const Settings& settings);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -315,4 +315,4 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
   return true;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -7,7 +7,7 @@
 #include "outdoor_omr/region.h"
 #include "ring_seeds.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Regions that may be sectors or arcs of a ring, as a shadow's edge or an occluder leaves them; the largest first.
@@ -22,6 +22,6 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions);
  */
 bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "outdoor_omr/rim_look.h"
 
-namespace outdoor_omr
+namespace omr
 {
 bool BorderLine::mayEnd() const
 {
@@ -56,4 +56,4 @@ BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, i
   return lookAtLine(lattice, frame, side, lineIndex(lattice, side, distance), BORDER_WINDOW + distance);
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

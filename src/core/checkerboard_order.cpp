@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -173,4 +173,4 @@ Checkerboard orderCheckerboard(const Lattice& lattice, const std::vector<bool>& 
   return board;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

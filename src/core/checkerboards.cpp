@@ -15,7 +15,7 @@
 #include "outdoor_omr/saddle_points.h"
 #include "outdoor_omr/search_map.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -230,4 +230,4 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
   return boards;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

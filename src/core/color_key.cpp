@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -204,4 +204,4 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
   return key;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

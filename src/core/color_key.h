@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Red, green and blue in linear light, 1 = the brightest the camera can tell. */
 using LinearColor = cv::Vec3d;
@@ -26,6 +26,6 @@ double linearLight(double grey_level);
  */
 std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

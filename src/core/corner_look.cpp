@@ -5,7 +5,7 @@
 
 #include "outdoor_omr/corner_ring.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -257,4 +257,4 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   return result;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

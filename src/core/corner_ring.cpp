@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -115,4 +115,4 @@ float ringCorrelation(const Ring& ring, const std::array<float, QUADRANTS>& patt
                   correlation(ring, pattern, greyLogarithm));
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 
 #include "outdoor_omr/lattice_model.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -194,4 +194,4 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
   return seen;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/targets.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -69,4 +69,4 @@ const FillPipeline& Detector::pipeline() const
   return pipeline_;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -202,4 +202,4 @@ const std::vector<Edgel>& EdgelMap::tile(int col, int row)
   return tile.edgels;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

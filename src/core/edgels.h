@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** Edge element: a point of an edge with sub-pixel position and the direction of its gradient. */
 struct Edgel
@@ -70,6 +70,6 @@ class EdgelMap
   std::vector<Tile> tiles_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -32,4 +32,4 @@ Frame makeFrame(const cv::Mat& bgr)
   return frame;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

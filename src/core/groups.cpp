@@ -7,7 +7,7 @@
 
 #include "outdoor_omr/corner_ring.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -239,4 +239,4 @@ std::vector<Seed> pairNeighbours(const Frame& frame, const RegionMap& regions)
   return seeds;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

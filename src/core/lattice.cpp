@@ -7,7 +7,7 @@
 
 #include "outdoor_omr/least_squares.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -362,4 +362,4 @@ Evidence latticeEvidence(const Lattice& lattice)
   return evidence;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

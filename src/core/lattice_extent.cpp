@@ -8,7 +8,7 @@
 #include "outdoor_omr/corner_ring.h"
 #include "outdoor_omr/lattice_model.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -206,4 +206,4 @@ std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker)
   return evidence;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

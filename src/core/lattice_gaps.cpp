@@ -8,7 +8,7 @@
 #include "outdoor_omr/lattice_model.h"
 #include "outdoor_omr/lattice_side.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -169,4 +169,4 @@ void splitAtBorders(Lattice& lattice, const Frame& frame)
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

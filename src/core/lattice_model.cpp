@@ -6,7 +6,7 @@
 
 #include "outdoor_omr/least_squares.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -124,4 +124,4 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
   return true;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -1,6 +1,6 @@
 #include "outdoor_omr/lattice_side.h"
 
-namespace outdoor_omr
+namespace omr
 {
 bool isRow(Side side)
 {
@@ -80,4 +80,4 @@ void addLines(Lattice& lattice, Side side, int count)
   box.width += isRow(side) ? 0 : count;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

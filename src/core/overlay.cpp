@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -245,4 +245,4 @@ cv::Mat drawOverlay(const cv::Mat& bgr, const Markers& markers, const RegionMap&
   return canvas.image;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

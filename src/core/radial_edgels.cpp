@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -94,4 +94,4 @@ AngleBins AngularSupport::at(double radius, double tolerance) const
   return count(brighter) > count(darker) ? brighter : darker;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -8,7 +8,7 @@
 #include "edgels.h"
 #include "ring_family.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Directions into which angular support is divided: bin i is centred on 2 pi (i + 1/2) / 64 on the plane. */
 constexpr int ANGLE_BINS = 64;
@@ -55,6 +55,6 @@ class AngularSupport
   std::vector<AngleBins> brighter_, darker_;  // per cell, apart by sign
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -207,4 +207,4 @@ std::vector<RegionSums> sumRegions(const cv::Mat& bgr, const cv::Mat& edges, con
   return all;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

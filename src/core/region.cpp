@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 Region toRegion(const RegionSums& sums)
 {
@@ -27,4 +27,4 @@ Region toRegion(const RegionSums& sums)
   return region;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

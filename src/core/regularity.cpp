@@ -9,7 +9,7 @@
 
 #include "outdoor_omr/local_frame.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -120,4 +120,4 @@ Regularity checkRegularity(const std::vector<cv::Point2f>& quads, const RegionMa
   return result;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 
 #include "outdoor_omr/corner_ring.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -124,4 +124,4 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   return RimLook::unclear;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -297,4 +297,4 @@ std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSu
   return boundaries;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

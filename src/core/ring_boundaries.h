@@ -6,7 +6,7 @@
 #include "radial_edgels.h"
 #include "ring_profile.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A circle on which the colour steps by the same amount in (nearly) all directions. */
 struct Boundary
@@ -32,6 +32,6 @@ struct Boundary
 std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSupport& support,
                                      const std::vector<double>& known);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "ring_refinement.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -174,4 +174,4 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   return (fits_well && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -8,7 +8,7 @@
 #include "ring_profile.h"
 #include "ring_seeds.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** What may be a target, with the evidence for it. */
 struct RingCandidate
@@ -35,6 +35,6 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -86,4 +86,4 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
   return colors;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 #include "color_key.h"
 #include "ring_profile.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Colours of the rings and, last, of what is around them, as if under one light: each follows from its neighbour by
@@ -17,6 +17,6 @@ namespace outdoor_omr
  */
 std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<double>& radii);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

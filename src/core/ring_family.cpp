@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 cv::Point2d RingFamily::toImage(const cv::Point2d& q) const
 {
@@ -72,4 +72,4 @@ bool familyFromMoments(const cv::Point2d& center, double cxx, double cxy, double
   return true;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Concentric circles of a plane as one camera sees them: one homography for all of them, so that its centre is the
@@ -38,6 +38,6 @@ struct RingFamily
  */
 bool familyFromMoments(const cv::Point2d& center, double cxx, double cxy, double cyy, RingFamily& family);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

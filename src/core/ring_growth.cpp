@@ -5,7 +5,7 @@
 
 #include "ring_refinement.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -206,4 +206,4 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
   return rings.radii.size() >= 2;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -5,7 +5,7 @@
 
 #include "radial_edgels.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A set of concentric boundaries. */
 struct Rings
@@ -33,6 +33,6 @@ bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings);
  */
 bool growRings(EdgelMap& map, double reach, Rings& rings);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

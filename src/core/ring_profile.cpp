@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -125,4 +125,4 @@ double greyLevel(float log_color)
   return std::exp(log_color) - DARK_LEVEL;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 
 #include "ring_family.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Logarithm of B, G and R: a change of the light is a constant. */
 using LogColor = cv::Vec3f;
@@ -55,6 +55,6 @@ bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std
 /** The grey level [0, 255] that a channel of a LogColor stands for. */
 double greyLevel(float log_color);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -316,4 +316,4 @@ double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, 
   return fit.rms();
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

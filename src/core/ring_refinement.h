@@ -5,7 +5,7 @@
 
 #include "ring_family.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** An edgel on the outer boundary of a ring. */
 struct BoundaryPoint
@@ -29,6 +29,6 @@ constexpr int MAX_BOUNDARIES = 16;
 double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
                     std::vector<double>& radii);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

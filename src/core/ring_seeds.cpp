@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -85,4 +85,4 @@ std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions)
   return seeds;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

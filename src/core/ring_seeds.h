@@ -7,7 +7,7 @@
 #include "outdoor_omr/region.h"
 #include "ring_family.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A region that may be part of a target. */
 struct RingSeed
@@ -25,6 +25,6 @@ bool isParallelogram(const Region& region);
  */
 std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

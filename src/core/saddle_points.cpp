@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
-constexpr int MAX_POINTS = 5000;   // the strongest; three boards of the largest size have 1200
+constexpr int MAX_POINTS = 5000;  // the strongest; three boards of the largest size have 1200
 constexpr int MAX_FAINT_POINTS = 2000;
 constexpr int MARGIN = 4;     // px at the border of the image without saddle points
 constexpr int MIN_SIDE = 16;  // px of an image that can hold a lattice
@@ -315,4 +315,4 @@ std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, c
   return seeds;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

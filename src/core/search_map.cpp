@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -42,4 +42,4 @@ void SearchMap::close(const std::vector<cv::Point2f>& outline)
   cv::fillPoly(failures_, std::vector<std::vector<cv::Point>>{polygon}, cv::Scalar(255));
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

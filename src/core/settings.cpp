@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -275,4 +275,4 @@ void loadSettings(Settings& settings, const std::string& file)
   settings = changed;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

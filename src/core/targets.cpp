@@ -10,7 +10,7 @@
 #include "ring_colors.h"
 #include "ring_seeds.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -144,4 +144,4 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   return targets;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

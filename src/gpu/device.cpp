@@ -7,7 +7,7 @@
 
 #include "outdoor_omr/fill_pipeline.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -124,4 +124,4 @@ std::string describeError(const cl::Error& error, const std::string& device)
          (name == names.end() ? "OpenCL error" : name->second) + " (" + std::to_string(error.err()) + ")";
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

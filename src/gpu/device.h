@@ -6,7 +6,7 @@
 
 #include "opencl.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** A usable OpenCL device: available, with a compiler, little-endian. */
 struct Device
@@ -42,6 +42,6 @@ std::vector<Device> selectDevices(const std::string& name);
 /** "clEnqueueNDRangeKernel failed on DEVICE: CL_OUT_OF_RESOURCES (-5)" */
 std::string describeError(const cl::Error& error, const std::string& device);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

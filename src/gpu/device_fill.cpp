@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -194,4 +194,4 @@ void DeviceFill::warmUp()
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -11,7 +11,7 @@
 #include "outdoor_omr/settings.h"
 #include "program.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Which kernels a device gets; the results are the same. */
 enum class Geometry
@@ -130,6 +130,6 @@ void DeviceFill::launch(const std::string& kernel, const Groups& groups, const A
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

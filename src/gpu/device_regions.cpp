@@ -3,7 +3,7 @@
 
 #include "device_fill.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Strips for a CPU: 16 a core for an even load, 16 to 64 rows each (fewer unions across seams; measured flat there).
  */
@@ -173,4 +173,4 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
   return static_cast<int>(counters.regions);
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -4,7 +4,7 @@
 
 #include "outdoor_omr/region.h"
 
-namespace outdoor_omr
+namespace omr
 {
 static_assert(sizeof(RegionSums) == 104, "kernels/record.cl has the same layout");
 
@@ -79,4 +79,4 @@ void FillBuffers::reserveReported(const cl::Context& context, cl_uint count)
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 
 #include "opencl.h"
 
-namespace outdoor_omr
+namespace omr
 {
 inline int divideUp(int a, int b)
 {
@@ -77,6 +77,6 @@ struct FillBuffers
   void reserveReported(const cl::Context& context, cl_uint count);
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

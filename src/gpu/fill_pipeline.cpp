@@ -8,7 +8,7 @@
 #include "device_fill.h"
 #include "outdoor_omr/reference_fill.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -236,4 +236,4 @@ std::vector<std::string> FillPipeline::devices()
   return descriptions;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

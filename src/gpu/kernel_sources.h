@@ -1,12 +1,12 @@
 #ifndef OUTDOOR_OMR_GPU_KERNEL_SOURCES_H
 #define OUTDOOR_OMR_GPU_KERNEL_SOURCES_H
 
-namespace outdoor_omr
+namespace omr
 {
 /** The files of kernels/, in the order of their dependence; cmake/embed_kernels.cmake writes the definition. */
 extern const char* const KERNEL_SOURCES[];
 extern const unsigned KERNEL_SOURCE_COUNT;
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -5,7 +5,7 @@
 #include "kernel_sources.h"
 #include "outdoor_omr/fill_pipeline.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -38,4 +38,4 @@ Program::Program(const cl::Context& context, const cl::Device& device, int lanes
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -7,7 +7,7 @@
 
 #include "opencl.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** Number of work-groups of a launch. */
 struct Groups
@@ -51,6 +51,6 @@ class Program
   std::map<std::string, cl::Kernel> kernels_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

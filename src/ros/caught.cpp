@@ -2,7 +2,7 @@
 
 #include <exception>
 
-namespace outdoor_omr
+namespace omr
 {
 std::string caught(const std::function<void()>& action)
 {
@@ -22,4 +22,4 @@ std::string caught(const std::function<void()>& action)
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

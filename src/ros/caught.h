@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Runs an action and returns the text of what it threw, empty if nothing: the one place of the ROS layer that catches.
@@ -12,6 +12,6 @@ namespace outdoor_omr
  */
 std::string caught(const std::function<void()>& action);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

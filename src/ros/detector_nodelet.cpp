@@ -18,7 +18,7 @@
 #include "outdoor_omr/overlay.h"
 #include "parameters.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Images in, markers out.
@@ -29,7 +29,7 @@ namespace outdoor_omr
 class DetectorNodelet : public nodelet::Nodelet
 {
  private:
-  using ReconfigureServer = dynamic_reconfigure::Server<OmrConfig>;
+  using ReconfigureServer = dynamic_reconfigure::Server<outdoor_omr::OmrConfig>;
 
   void onInit() override
   {
@@ -53,13 +53,14 @@ class DetectorNodelet : public nodelet::Nodelet
     diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_nh, getName(), detector_->pipeline());
     image_thread_ = std::make_unique<ImageThread>([this](const auto& image) { process(image); });
     reconfigure_server_ = std::make_unique<ReconfigureServer>(reconfigure_mutex_, private_nh);
-    reconfigure_server_->setCallback([this](OmrConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
+    reconfigure_server_->setCallback(
+        [this](outdoor_omr::OmrConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
 
     // A listener may connect before advertise() has returned: connect() waits for this lock.
     const std::lock_guard<std::mutex> lock(connect_mutex_);
     const auto connect = [this](const auto& /*listener*/) { this->connect(); };
-    checkerboards_ = private_nh.advertise<outdoor_omr_msgs::CheckerboardArray>("checkerboards", 1, connect, connect);
-    targets_ = private_nh.advertise<outdoor_omr_msgs::TargetArray>("targets", 1, connect, connect);
+    checkerboards_ = private_nh.advertise<outdoor_omr::CheckerboardArray>("checkerboards", 1, connect, connect);
+    targets_ = private_nh.advertise<outdoor_omr::TargetArray>("targets", 1, connect, connect);
     overlay_ = image_transport::ImageTransport(private_nh).advertise("overlay", 1, connect, connect);
   }
 
@@ -86,7 +87,7 @@ class DetectorNodelet : public nodelet::Nodelet
     NODELET_ERROR_COND(!error.empty(), "Cannot subscribe to the images: %s", error.c_str());
   }
 
-  void reconfigure(OmrConfig& config)
+  void reconfigure(outdoor_omr::OmrConfig& config)
   {
     Settings changed;
     const std::string error = caught([&] { changed = toSettings(config); });
@@ -156,7 +157,7 @@ class DetectorNodelet : public nodelet::Nodelet
 
   std::mutex settings_mutex_;
   Settings settings_;
-  OmrConfig config_;  // what settings_ came from
+  outdoor_omr::OmrConfig config_;  // what settings_ came from
 
   std::mutex connect_mutex_;
   ros::Publisher checkerboards_;
@@ -170,6 +171,6 @@ class DetectorNodelet : public nodelet::Nodelet
   image_transport::Subscriber images_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
-PLUGINLIB_EXPORT_CLASS(outdoor_omr::DetectorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(omr::DetectorNodelet, nodelet::Nodelet)

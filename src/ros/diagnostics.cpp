@@ -4,7 +4,7 @@
 
 #include "caught.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -115,4 +115,4 @@ void Diagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status)
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

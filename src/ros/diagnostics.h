@@ -13,7 +13,7 @@
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/step_time.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * How a detector fares, told on /diagnostics once a second of wall time, also while simulated time stands still
@@ -69,6 +69,6 @@ class Diagnostics
   ros::WallTimer timer_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

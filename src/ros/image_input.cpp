@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -109,4 +109,4 @@ cv::Mat toBgr(const sensor_msgs::ImageConstPtr& message)
   return cv_bridge::cvtColor(named, enc::BGR8)->image;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

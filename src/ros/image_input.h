@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * The pixels of an image message as the detector takes them.
@@ -22,6 +22,6 @@ namespace outdoor_omr
  */
 cv::Mat toBgr(const sensor_msgs::ImageConstPtr& message);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

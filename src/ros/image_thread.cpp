@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace outdoor_omr
+namespace omr
 {
 ImageThread::ImageThread(Process process) : process_(std::move(process)), thread_([this] { run(); })
 {
@@ -48,4 +48,4 @@ void ImageThread::run()
   }
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

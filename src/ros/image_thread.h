@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * A thread that processes images one after the other, always the newest: an image that still waits when the next one
@@ -45,6 +45,6 @@ class ImageThread
   std::thread thread_;
 };
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -3,20 +3,20 @@
 #include <cmath>
 #include <utility>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
-outdoor_omr_msgs::Pixel toMessage(const cv::Point2f& point)
+outdoor_omr::Pixel toMessage(const cv::Point2f& point)
 {
-  outdoor_omr_msgs::Pixel message;
+  outdoor_omr::Pixel message;
   message.x = point.x;
   message.y = point.y;
   return message;
 }
 
 /** OpenCV gives the angle of the width in degrees, clockwise as seen. */
-outdoor_omr_msgs::Ellipse toMessage(const cv::RotatedRect& ellipse)
+outdoor_omr::Ellipse toMessage(const cv::RotatedRect& ellipse)
 {
   double major = ellipse.size.width;
   double minor = ellipse.size.height;
@@ -27,7 +27,7 @@ outdoor_omr_msgs::Ellipse toMessage(const cv::RotatedRect& ellipse)
     degrees += 90;
   }
   degrees = std::fmod(std::fmod(degrees, 180) + 180, 180);
-  outdoor_omr_msgs::Ellipse message;
+  outdoor_omr::Ellipse message;
   message.center = toMessage(ellipse.center);
   message.major_axis = static_cast<float>(major);
   message.minor_axis = static_cast<float>(minor);
@@ -35,9 +35,9 @@ outdoor_omr_msgs::Ellipse toMessage(const cv::RotatedRect& ellipse)
   return message;
 }
 
-outdoor_omr_msgs::Checkerboard toMessage(const Checkerboard& board)
+outdoor_omr::Checkerboard toMessage(const Checkerboard& board)
 {
-  outdoor_omr_msgs::Checkerboard message;
+  outdoor_omr::Checkerboard message;
   message.rows = board.rows;
   message.cols = board.cols;
   for (std::size_t i = 0; i < board.corners.size(); ++i)
@@ -55,9 +55,9 @@ outdoor_omr_msgs::Checkerboard toMessage(const Checkerboard& board)
   return message;
 }
 
-outdoor_omr_msgs::Target toMessage(const Target& target)
+outdoor_omr::Target toMessage(const Target& target)
 {
-  outdoor_omr_msgs::Target message;
+  outdoor_omr::Target message;
   message.colors = target.colors;
   message.center = toMessage(target.center);
   for (const cv::RotatedRect& ring : target.rings)
@@ -78,10 +78,10 @@ Array emptyArray(const std_msgs::Header& header, const cv::Size& size)
 }
 }  // namespace
 
-outdoor_omr_msgs::CheckerboardArray toMessage(const std_msgs::Header& header, const cv::Size& size,
-                                              const std::vector<Checkerboard>& checkerboards)
+outdoor_omr::CheckerboardArray toMessage(const std_msgs::Header& header, const cv::Size& size,
+                                         const std::vector<Checkerboard>& checkerboards)
 {
-  auto message = emptyArray<outdoor_omr_msgs::CheckerboardArray>(header, size);
+  auto message = emptyArray<outdoor_omr::CheckerboardArray>(header, size);
   for (const Checkerboard& board : checkerboards)
   {
     message.checkerboards.push_back(toMessage(board));
@@ -89,10 +89,10 @@ outdoor_omr_msgs::CheckerboardArray toMessage(const std_msgs::Header& header, co
   return message;
 }
 
-outdoor_omr_msgs::TargetArray toMessage(const std_msgs::Header& header, const cv::Size& size,
-                                        const std::vector<Target>& targets)
+outdoor_omr::TargetArray toMessage(const std_msgs::Header& header, const cv::Size& size,
+                                   const std::vector<Target>& targets)
 {
-  auto message = emptyArray<outdoor_omr_msgs::TargetArray>(header, size);
+  auto message = emptyArray<outdoor_omr::TargetArray>(header, size);
   for (const Target& target : targets)
   {
     message.targets.push_back(toMessage(target));
@@ -100,4 +100,4 @@ outdoor_omr_msgs::TargetArray toMessage(const std_msgs::Header& header, const cv
   return message;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

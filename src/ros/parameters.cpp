@@ -9,7 +9,7 @@
 
 #include "caught.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -55,7 +55,7 @@ bool contains(const Names& names, const std::string& name)
 }
 }  // namespace
 
-Settings toSettings(const OmrConfig& config)
+Settings toSettings(const outdoor_omr::OmrConfig& config)
 {
   Settings settings;
 #define OMR_BOOL(name, value, group, description) settings.name = config.name;
@@ -104,4 +104,4 @@ std::vector<std::string> checkParameters(const ros::NodeHandle& private_nh)
   return complaints;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -9,10 +9,10 @@
 
 #include "outdoor_omr/settings.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** @throws std::invalid_argument naming the parameter, when a word is none of its choices or a value is refused. */
-Settings toSettings(const OmrConfig& config);
+Settings toSettings(const outdoor_omr::OmrConfig& config);
 
 /**
  * Looks through the parameters that are set in a detector's private namespace, before dynamic_reconfigure reads them:
@@ -24,6 +24,6 @@ Settings toSettings(const OmrConfig& config);
  */
 std::vector<std::string> checkParameters(const ros::NodeHandle& private_nh);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

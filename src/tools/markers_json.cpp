@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -84,4 +84,4 @@ Json toJson(const std::string& image, const cv::Size& size, double milliseconds,
           {"targets", targets}};
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -7,7 +7,7 @@
 
 #include "outdoor_omr/detector.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * One image's markers as the JSON object that omr_detect writes on a line of its own (README, "Command line").
@@ -19,6 +19,6 @@ namespace outdoor_omr
 nlohmann::ordered_json toJson(const std::string& image, const cv::Size& size, double milliseconds,
                               const Markers& markers);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

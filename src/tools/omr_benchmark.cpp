@@ -17,12 +17,12 @@
 #include "outdoor_omr/reference_fill.h"
 #include "scene.h"
 
-using outdoor_omr::AreaWindow;
-using outdoor_omr::DeviceFill;
-using outdoor_omr::FillMethod;
-using outdoor_omr::FillPipeline;
-using outdoor_omr::Filter;
-using outdoor_omr::Settings;
+using omr::AreaWindow;
+using omr::DeviceFill;
+using omr::FillMethod;
+using omr::FillPipeline;
+using omr::Filter;
+using omr::Settings;
 
 namespace
 {
@@ -85,7 +85,7 @@ void addEdges(const Picture& picture, const std::shared_ptr<DeviceFill>& fill, i
 
 void addRegions(const Picture& picture, const std::shared_ptr<DeviceFill>& fill, const Settings& settings)
 {
-  const cv::Mat edges = outdoor_omr::edgeMask(picture.bgr, settings.sobel_threshold);
+  const cv::Mat edges = omr::edgeMask(picture.bgr, settings.sobel_threshold);
   const cv::Mat open = edges == 0;
   const auto label = [=](FillMethod method, cv::Mat& labels) {
     fill->labelRegions(method, std::numeric_limits<int>::max());  // sweeps: until they settle
@@ -108,14 +108,13 @@ void addRegions(const Picture& picture, const std::shared_ptr<DeviceFill>& fill,
       }));
   add(picture, "cv::connectedComponents",
       [=, labels = cv::Mat()]() mutable { cv::connectedComponents(open, labels, 4); });
-  add(picture, "labels and region data",
-      [=, labels = cv::Mat(), sums = std::vector<outdoor_omr::RegionSums>()]() mutable {
-        fill->loadImage(picture.bgr);
-        label(FillMethod::runs, labels);
-        fill->sumRegions(AreaWindow());
-        fill->readSums(sums);
-        fill->finish();
-      });
+  add(picture, "labels and region data", [=, labels = cv::Mat(), sums = std::vector<omr::RegionSums>()]() mutable {
+    fill->loadImage(picture.bgr);
+    label(FillMethod::runs, labels);
+    fill->sumRegions(AreaWindow());
+    fill->readSums(sums);
+    fill->finish();
+  });
   add(picture, "cv::connectedComponentsWithStats",
       [=, labels = cv::Mat(), stats = cv::Mat(), centers = cv::Mat()]() mutable {
         cv::connectedComponentsWithStats(open, labels, stats, centers, 4);
@@ -133,7 +132,7 @@ void addWhole(const Picture& picture, const std::shared_ptr<FillPipeline>& pipel
 {
   for (const bool labels : {false, true})
   {
-    add(picture, labels ? "whole with label image" : "whole", [=, map = outdoor_omr::RegionMap()]() mutable {
+    add(picture, labels ? "whole with label image" : "whole", [=, map = omr::RegionMap()]() mutable {
       FillPipeline::Outputs outputs;
       outputs.labels = labels;
       pipeline->run(picture.bgr, settings, outputs, map);
@@ -161,7 +160,7 @@ std::vector<Picture> pictures(const std::vector<std::string>& files)
   {
     if (files.empty())
     {
-      all.push_back({std::to_string(size.width) + "x" + std::to_string(size.height), outdoor_omr::drawScene(size)});
+      all.push_back({std::to_string(size.width) + "x" + std::to_string(size.height), omr::drawScene(size)});
     }
   }
   return all;
@@ -176,14 +175,14 @@ int run(int argc, char** argv)
   app.add_option("--device", name, "OpenCL device: auto, gpu, cpu or a part of its name");
   app.add_option("images", files, "image files (default: drawn scenes of several sizes)");
   CLI11_PARSE(app, argc, argv);
-  const std::vector<outdoor_omr::Device> devices = outdoor_omr::selectDevices(name);
+  const std::vector<omr::Device> devices = omr::selectDevices(name);
   if (devices.empty())
   {
-    throw outdoor_omr::DeviceError("no OpenCL device is present");
+    throw omr::DeviceError("no OpenCL device is present");
   }
   const auto pipeline = std::make_shared<FillPipeline>(name);
   const auto fill = std::make_shared<DeviceFill>(
-      devices.front(), devices.front().isCpu() ? outdoor_omr::Geometry::strips : outdoor_omr::Geometry::words);
+      devices.front(), devices.front().isCpu() ? omr::Geometry::strips : omr::Geometry::words);
   std::cout << "device: " << pipeline->deviceName() << "\n";
   for (const Picture& picture : pictures(files))
   {

@@ -45,16 +45,16 @@ struct Options
   }
 };
 
-outdoor_omr::Settings readSettings(const Options& options)
+omr::Settings readSettings(const Options& options)
 {
-  outdoor_omr::Settings settings;
+  omr::Settings settings;
   if (!options.config.empty())
   {
-    outdoor_omr::loadSettings(settings, options.config);
+    omr::loadSettings(settings, options.config);
   }
   if (!options.filter.empty())
   {
-    outdoor_omr::setParameter(settings, "filter", options.filter);
+    omr::setParameter(settings, "filter", options.filter);
   }
   for (const std::string& assignment : options.set)
   {
@@ -63,7 +63,7 @@ outdoor_omr::Settings readSettings(const Options& options)
     {
       throw std::invalid_argument("--set expects name=value, not '" + assignment + "'");
     }
-    outdoor_omr::setParameter(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+    omr::setParameter(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   return settings;
 }
@@ -155,18 +155,18 @@ void writeJson(std::ostream& stream, const nlohmann::ordered_json& json)
   }
 }
 
-void printSummary(const std::string& name, double milliseconds, const outdoor_omr::Markers& markers)
+void printSummary(const std::string& name, double milliseconds, const omr::Markers& markers)
 {
   std::cout << std::fixed << std::setprecision(1) << name << ": " << markers.checkerboards.size() << " checkerboards, "
             << markers.targets.size() << " targets, " << milliseconds << " ms\n";
-  for (const outdoor_omr::Checkerboard& board : markers.checkerboards)
+  for (const omr::Checkerboard& board : markers.checkerboards)
   {
     const auto seen = std::count(board.inner_corners_seen.begin(), board.inner_corners_seen.end(), true);
     std::cout << "  checkerboard " << (board.size_certain ? "" : ">= ") << board.rows << " x " << board.cols
               << " squares, first corner (" << board.corners[0].x << ", " << board.corners[0].y << "), " << seen
               << " of " << board.inner_corners.size() << " inner corners seen\n";
   }
-  for (const outdoor_omr::Target& target : markers.targets)
+  for (const omr::Target& target : markers.targets)
   {
     std::cout << "  target " << target.colors << " at (" << target.center.x << ", " << target.center.y << ")\n";
   }
@@ -188,22 +188,22 @@ void showProgress(const Options& options, std::size_t index)
 }
 
 /** Reads one image, searches it and writes what was asked for; std::invalid_argument when the image is at fault. */
-void processImage(const Options& options, std::size_t index, const outdoor_omr::Settings& settings,
-                  outdoor_omr::Detector& detector, const std::string& overlay_name, std::ostream& json)
+void processImage(const Options& options, std::size_t index, const omr::Settings& settings, omr::Detector& detector,
+                  const std::string& overlay_name, std::ostream& json)
 {
   using Clock = std::chrono::steady_clock;
   const std::string& name = options.images[index];
   const cv::Mat image = readImage(name);
   const Clock::time_point start = Clock::now();
-  const outdoor_omr::Markers markers = detector.detect(image, settings);
+  const omr::Markers markers = detector.detect(image, settings);
   const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (!options.overlay.empty())
   {
-    writeOverlay(options.overlay + "/" + overlay_name, outdoor_omr::drawOverlay(image, markers, detector.regions()));
+    writeOverlay(options.overlay + "/" + overlay_name, omr::drawOverlay(image, markers, detector.regions()));
   }
   if (!options.json.empty())
   {
-    writeJson(json, outdoor_omr::toJson(name, image.size(), milliseconds, markers));
+    writeJson(json, omr::toJson(name, image.size(), milliseconds, markers));
   }
   else if (options.overlay.empty())
   {
@@ -214,8 +214,8 @@ void processImage(const Options& options, std::size_t index, const outdoor_omr::
 ExitCode detectAll(const Options& options)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
-  const outdoor_omr::Settings settings = readSettings(options);
-  outdoor_omr::Detector detector(options.device);
+  const omr::Settings settings = readSettings(options);
+  omr::Detector detector(options.device);
   std::ofstream file;
   if (!options.json.empty() && options.json != "-")
   {
@@ -247,7 +247,7 @@ ExitCode detectAll(const Options& options)
 
 void listDevices()
 {
-  const std::vector<std::string> devices = outdoor_omr::FillPipeline::devices();
+  const std::vector<std::string> devices = omr::FillPipeline::devices();
   for (const std::string& device : devices)
   {
     std::cout << device << "\n";
@@ -267,7 +267,7 @@ ExitCode run(const Options& options)
   }
   if (options.list_parameters)
   {
-    std::cout << outdoor_omr::parameterTable();
+    std::cout << omr::parameterTable();
     return SUCCESS;
   }
   return detectAll(options);

@@ -18,7 +18,7 @@ enum ExitCode
 struct Options
 {
   std::vector<std::string> checkerboards;
-  outdoor_omr::SheetContent content;
+  omr::SheetContent content;
   std::string page = "A4";
   bool landscape = false;
   double dpi = 300;
@@ -26,21 +26,21 @@ struct Options
 };
 
 /** The bytes of the sheet in the format that the file's extension names. */
-std::string encode(const outdoor_omr::Sheet& sheet, const std::string& file, double dpi)
+std::string encode(const omr::Sheet& sheet, const std::string& file, double dpi)
 {
   const std::string extension = std::filesystem::path(file).extension();
   if (extension == ".svg")
   {
-    return outdoor_omr::toSvg(sheet);
+    return omr::toSvg(sheet);
   }
   if (extension == ".pdf")
   {
-    return outdoor_omr::toPdf(sheet);
+    return omr::toPdf(sheet);
   }
   if (extension == ".png")
   {
     std::vector<unsigned char> bytes;
-    cv::imencode(extension, outdoor_omr::toImage(sheet, dpi), bytes);
+    cv::imencode(extension, omr::toImage(sheet, dpi), bytes);
     return {bytes.begin(), bytes.end()};
   }
   throw std::invalid_argument("the output is a file .svg, .pdf or .png, not '" + file + "'");
@@ -60,19 +60,19 @@ void run(Options options)
 {
   for (const std::string& text : options.checkerboards)
   {
-    options.content.checkerboards.push_back(outdoor_omr::parseCheckerboard(text));
+    options.content.checkerboards.push_back(omr::parseCheckerboard(text));
   }
-  cv::Size2d page = outdoor_omr::parsePage(options.page);
+  cv::Size2d page = omr::parsePage(options.page);
   if (options.landscape)
   {
     std::swap(page.width, page.height);
   }
-  const outdoor_omr::Sheet sheet = outdoor_omr::arrangeSheet(options.content, page);
+  const omr::Sheet sheet = omr::arrangeSheet(options.content, page);
   for (const std::string& file : options.files)
   {
     writeFile(file, encode(sheet, file, options.dpi));
   }
-  for (const std::string& advice : outdoor_omr::adviceFor(options.content))
+  for (const std::string& advice : omr::adviceFor(options.content))
   {
     std::cerr << "omr_sheet: note: " << advice << "\n";
   }

@@ -9,7 +9,7 @@
 
 #include "outdoor_omr/settings.h"
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -84,4 +84,4 @@ std::string parameterTable()
   return text.str();
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -3,11 +3,11 @@
 
 #include <string>
 
-namespace outdoor_omr
+namespace omr
 {
 /** All parameters of settings.def with default, bounds, unit and description, as the Markdown table of the README. */
 std::string parameterTable();
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -53,4 +53,4 @@ cv::Mat drawScene(const cv::Size& size, double noise)
   return image;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace outdoor_omr
+namespace omr
 {
 /**
  * Draws checkerboards, targets of concentric rings and lines in colour with sensor noise, scaled to the size: a scene
@@ -13,6 +13,6 @@ namespace outdoor_omr
  */
 cv::Mat drawScene(const cv::Size& size, double noise = 4);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

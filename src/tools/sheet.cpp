@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -274,4 +274,4 @@ std::vector<std::string> adviceFor(const SheetContent& content)
   return advice;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

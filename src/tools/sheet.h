@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 /** A filled shape or a line of text. All lengths in mm; x to the right, y down, origin at the page's top left corner.
  */
@@ -61,6 +61,6 @@ Sheet arrangeSheet(const SheetContent& content, const cv::Size2d& page);
 /** What a person should know of these markers before printing them; empty when there is nothing. */
 std::vector<std::string> adviceFor(const SheetContent& content);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

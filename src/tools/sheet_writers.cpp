@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace outdoor_omr
+namespace omr
 {
 namespace
 {
@@ -236,4 +236,4 @@ cv::Mat toImage(const Sheet& sheet, double dpi)
   return image;
 }
 
-}  // namespace outdoor_omr
+}  // namespace omr

@@ -6,7 +6,7 @@
 
 #include "sheet.h"
 
-namespace outdoor_omr
+namespace omr
 {
 /** The sheet as an SVG document whose user unit is the mm. */
 std::string toSvg(const Sheet& sheet);
@@ -23,6 +23,6 @@ std::string toPdf(const Sheet& sheet);
  */
 cv::Mat toImage(const Sheet& sheet, double dpi);
 
-}  // namespace outdoor_omr
+}  // namespace omr
 
 #endif

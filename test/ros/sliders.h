@@ -15,9 +15,9 @@
 namespace ros_test
 {
 /** A value other than the default, as text; every tunable has one. */
-inline std::string otherValue(const outdoor_omr::Parameter& parameter)
+inline std::string otherValue(const omr::Parameter& parameter)
 {
-  const std::string value = outdoor_omr::getParameter(outdoor_omr::Settings(), parameter.name);
+  const std::string value = omr::getParameter(omr::Settings(), parameter.name);
   if (parameter.type == "bool")
   {
     return value == "true" ? "false" : "true";
@@ -31,9 +31,9 @@ inline std::string otherValue(const outdoor_omr::Parameter& parameter)
   return bound.str();
 }
 
-inline const outdoor_omr::Parameter& parameterNamed(const std::string& name)
+inline const omr::Parameter& parameterNamed(const std::string& name)
 {
-  const auto& all = outdoor_omr::parameters();
+  const auto& all = omr::parameters();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
   if (found == all.end())
   {

@@ -2,16 +2,17 @@
 // the others.
 
 #include <gtest/gtest.h>
+#include <outdoor_omr/CheckerboardArray.h>
+#include <outdoor_omr/TargetArray.h>
 #include <rosbag/bag.h>
 
 #include <set>
 
-#include "message_types.h"
 #include "nodelet_manager.h"
 #include "ros_test.h"
 
 using diagnostic_msgs::DiagnosticArray;
-using outdoor_omr_msgs::TargetArray;
+using outdoor_omr::TargetArray;
 using ros_test::Listener;
 using ros_test::newestStatus;
 using ros_test::NodeletManager;

@@ -1,15 +1,16 @@
 // The detector from outside, as its users see it: one source, run against the node and against the nodelet.
 
 #include <gtest/gtest.h>
+#include <outdoor_omr/CheckerboardArray.h>
+#include <outdoor_omr/TargetArray.h>
 #include <topic_tools/shape_shifter.h>
 
-#include "message_types.h"
 #include "ros_test.h"
 
 using diagnostic_msgs::DiagnosticArray;
 using diagnostic_msgs::DiagnosticStatus;
-using outdoor_omr_msgs::CheckerboardArray;
-using outdoor_omr_msgs::TargetArray;
+using outdoor_omr::CheckerboardArray;
+using outdoor_omr::TargetArray;
 using ros_test::Listener;
 using ros_test::newestStatus;
 using ros_test::valueOf;

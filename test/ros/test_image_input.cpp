@@ -164,7 +164,7 @@ std::string refusal(const sensor_msgs::ImageConstPtr& image)
 {
   try
   {
-    outdoor_omr::toBgr(image);
+    omr::toBgr(image);
   }
   catch (const std::invalid_argument& error)
   {
@@ -181,7 +181,7 @@ TEST(ImageInput, convertsEveryEncoding)
     const bool is_grey = enc::isMono(encoding) || encoding == enc::TYPE_8UC1;
     const cv::Mat expected = is_grey ? converted(grey(quarters()), cv::COLOR_GRAY2BGR) : quarters();
     const auto image = quartersMessage(encoding);
-    const cv::Mat bgr = outdoor_omr::toBgr(image);
+    const cv::Mat bgr = omr::toBgr(image);
     ASSERT_EQ(CV_8UC3, bgr.type()) << encoding;
     ASSERT_EQ(expected.size(), bgr.size()) << encoding;
     // yuv422 rounds to integers twice, in another colour space.
@@ -205,7 +205,7 @@ TEST(ImageInput, readsBothByteOrders)
         std::swap(big->data[i], big->data[i + 1]);
       }
     }
-    EXPECT_EQ(0, cv::norm(outdoor_omr::toBgr(little), outdoor_omr::toBgr(big), cv::NORM_INF)) << encoding;
+    EXPECT_EQ(0, cv::norm(omr::toBgr(little), omr::toBgr(big), cv::NORM_INF)) << encoding;
   }
 }
 
@@ -216,7 +216,7 @@ TEST(ImageInput, skipsThePaddingOfRows)
     const cv::Mat pixels = encode(quarters(), encoding);
     const auto plain = message(pixels, encoding);
     const auto padded = message(pixels, encoding, 6);
-    EXPECT_EQ(0, cv::norm(outdoor_omr::toBgr(plain), outdoor_omr::toBgr(padded), cv::NORM_INF)) << encoding;
+    EXPECT_EQ(0, cv::norm(omr::toBgr(plain), omr::toBgr(padded), cv::NORM_INF)) << encoding;
   }
 }
 
@@ -225,7 +225,7 @@ TEST(ImageInput, copiesNothingThatIsBgrAlready)
   for (const std::string& encoding : {enc::BGR8, enc::TYPE_8UC3})
   {
     const auto image = quartersMessage(encoding);
-    EXPECT_EQ(image->data.data(), outdoor_omr::toBgr(image).data) << encoding;
+    EXPECT_EQ(image->data.data(), omr::toBgr(image).data) << encoding;
   }
 }
 
@@ -290,7 +290,7 @@ TEST(ImageInput, takesOrRefusesTheSmallestImages)
       const auto image = message(pixels, encoding);
       if (refusal(image).empty())
       {
-        EXPECT_EQ(shape, outdoor_omr::toBgr(image).size()) << encoding;
+        EXPECT_EQ(shape, omr::toBgr(image).size()) << encoding;
       }
     }
   }

@@ -1,15 +1,16 @@
 // Loads and unloads the detector again and again while images arrive and listeners listen: the manager must live.
 
 #include <gtest/gtest.h>
+#include <outdoor_omr/CheckerboardArray.h>
+#include <outdoor_omr/TargetArray.h>
 
 #include <atomic>
 #include <thread>
 
-#include "message_types.h"
 #include "nodelet_manager.h"
 #include "ros_test.h"
 
-using outdoor_omr_msgs::TargetArray;
+using outdoor_omr::TargetArray;
 using ros_test::Listener;
 using ros_test::NodeletManager;
 using ros_test::waitFor;

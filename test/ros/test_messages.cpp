@@ -4,8 +4,8 @@
 
 #include "messages.h"
 
-using outdoor_omr::Checkerboard;
-using outdoor_omr::Target;
+using omr::Checkerboard;
+using omr::Target;
 
 namespace
 {
@@ -42,16 +42,16 @@ Checkerboard board()
   return result;
 }
 
-outdoor_omr_msgs::Ellipse ellipse(const cv::RotatedRect& rectangle)
+outdoor_omr::Ellipse ellipse(const cv::RotatedRect& rectangle)
 {
   Target target;
   target.colors = "W";
   target.rings = {rectangle};
-  return outdoor_omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>{target}).targets.at(0).rings.at(0);
+  return omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>{target}).targets.at(0).rings.at(0);
 }
 
 /** Where the end of an ellipse's longer axis lies, from its centre. */
-cv::Point2d tip(const outdoor_omr_msgs::Ellipse& e)
+cv::Point2d tip(const outdoor_omr::Ellipse& e)
 {
   return cv::Point2d(std::cos(e.angle), std::sin(e.angle)) * (e.major_axis / 2);
 }
@@ -59,8 +59,8 @@ cv::Point2d tip(const outdoor_omr_msgs::Ellipse& e)
 
 TEST(Messages, copiesHeaderAndSizeAlsoWhenThereIsNothing)
 {
-  const auto boards = outdoor_omr::toMessage(header(), cv::Size(640, 480), std::vector<Checkerboard>());
-  const auto targets = outdoor_omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>());
+  const auto boards = omr::toMessage(header(), cv::Size(640, 480), std::vector<Checkerboard>());
+  const auto targets = omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>());
   EXPECT_EQ(header(), boards.header);
   EXPECT_EQ(header(), targets.header);
   EXPECT_EQ(640U, boards.width);
@@ -74,8 +74,7 @@ TEST(Messages, copiesHeaderAndSizeAlsoWhenThereIsNothing)
 TEST(Messages, copiesEveryFieldOfACheckerboard)
 {
   const Checkerboard first = board();
-  const auto array =
-      outdoor_omr::toMessage(header(), cv::Size(640, 480), std::vector<Checkerboard>{first, Checkerboard()});
+  const auto array = omr::toMessage(header(), cv::Size(640, 480), std::vector<Checkerboard>{first, Checkerboard()});
   ASSERT_EQ(2U, array.checkerboards.size());
   const auto& message = array.checkerboards[0];
   EXPECT_EQ(3U, message.rows);
@@ -110,7 +109,7 @@ TEST(Messages, copiesEveryFieldOfATarget)
   {
     target.rings.emplace_back(cv::Point2f(30.F + i, 40.F), cv::Size2f(20.F * i, 10.F * i), 30.F);
   }
-  const auto array = outdoor_omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>{target});
+  const auto array = omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>{target});
   ASSERT_EQ(1U, array.targets.size());
   const auto& message = array.targets[0];
   EXPECT_EQ("RW?", message.colors);

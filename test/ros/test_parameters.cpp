@@ -9,9 +9,9 @@
 #include "parameters.h"
 #include "sliders.h"
 
+using omr::Parameter;
+using omr::Settings;
 using outdoor_omr::OmrConfig;
-using outdoor_omr::Parameter;
-using outdoor_omr::Settings;
 
 namespace
 {
@@ -53,11 +53,11 @@ std::string defaultYaml()
   yaml << "# Parameters of the detector with their defaults. Copy this file, keep what you change, and name the copy "
           "in\n"
           "# detect.launch (config:=FILE) or omr_detect (--config FILE).\n";
-  for (const Parameter& parameter : outdoor_omr::parameters())
+  for (const Parameter& parameter : omr::parameters())
   {
     yaml << "\n# " << parameter.description << "\n"
-         << parameter.name << ": " << outdoor_omr::getParameter(Settings(), parameter.name) << "  # "
-         << bounds(parameter) << "\n";
+         << parameter.name << ": " << omr::getParameter(Settings(), parameter.name) << "  # " << bounds(parameter)
+         << "\n";
   }
   return yaml.str();
 }
@@ -71,26 +71,24 @@ std::string contentOf(const std::string& file)
 
 TEST(Parameters, defaultsAreThoseOfTheSettings)
 {
-  const Settings settings = outdoor_omr::toSettings(OmrConfig::__getDefault__());
-  for (const Parameter& parameter : outdoor_omr::parameters())
+  const Settings settings = omr::toSettings(OmrConfig::__getDefault__());
+  for (const Parameter& parameter : omr::parameters())
   {
-    EXPECT_EQ(outdoor_omr::getParameter(Settings(), parameter.name),
-              outdoor_omr::getParameter(settings, parameter.name))
+    EXPECT_EQ(omr::getParameter(Settings(), parameter.name), omr::getParameter(settings, parameter.name))
         << parameter.name;
   }
 }
 
 TEST(Parameters, everySliderMovesItsTunableAndNoOther)
 {
-  for (const Parameter& moved : outdoor_omr::parameters())
+  for (const Parameter& moved : omr::parameters())
   {
     Settings expected;
-    outdoor_omr::setParameter(expected, moved.name, ros_test::otherValue(moved));
-    const Settings settings = outdoor_omr::toSettings(move(moved.name, ros_test::otherValue(moved)));
-    for (const Parameter& parameter : outdoor_omr::parameters())
+    omr::setParameter(expected, moved.name, ros_test::otherValue(moved));
+    const Settings settings = omr::toSettings(move(moved.name, ros_test::otherValue(moved)));
+    for (const Parameter& parameter : omr::parameters())
     {
-      EXPECT_EQ(outdoor_omr::getParameter(expected, parameter.name),
-                outdoor_omr::getParameter(settings, parameter.name))
+      EXPECT_EQ(omr::getParameter(expected, parameter.name), omr::getParameter(settings, parameter.name))
           << parameter.name << " after moving " << moved.name;
     }
   }
@@ -99,12 +97,12 @@ TEST(Parameters, everySliderMovesItsTunableAndNoOther)
 TEST(Parameters, slidersHaveTheBoundsGroupsAndWordsOfTheList)
 {
   const auto& descriptions = OmrConfig::__getParamDescriptions__();
-  ASSERT_EQ(outdoor_omr::parameters().size(), descriptions.size());
+  ASSERT_EQ(omr::parameters().size(), descriptions.size());
   dynamic_reconfigure::Config high;
   dynamic_reconfigure::Config low;
   OmrConfig::__getMax__().__toMessage__(high);
   OmrConfig::__getMin__().__toMessage__(low);
-  for (const Parameter& parameter : outdoor_omr::parameters())
+  for (const Parameter& parameter : omr::parameters())
   {
     const auto slider = std::find_if(descriptions.begin(), descriptions.end(),
                                      [&](const auto& description) { return description->name == parameter.name; });
@@ -125,7 +123,7 @@ TEST(Parameters, slidersHaveTheBoundsGroupsAndWordsOfTheList)
 
 TEST(Parameters, refusesAWordThatIsNoChoice)
 {
-  EXPECT_THROW(outdoor_omr::toSettings(move("filter", "gauss")), std::invalid_argument);
+  EXPECT_THROW(omr::toSettings(move("filter", "gauss")), std::invalid_argument);
 }
 
 TEST(Parameters, yamlFileHoldsTheDefaults)
@@ -135,7 +133,7 @@ TEST(Parameters, yamlFileHoldsTheDefaults)
   EXPECT_EQ(defaultYaml(), contentOf(OUTDOOR_OMR_CONFIG "/detector.yaml"))
       << "settings.def has changed: copy " << made << " to config/detector.yaml";
   Settings settings;
-  EXPECT_NO_THROW(outdoor_omr::loadSettings(settings, OUTDOOR_OMR_CONFIG "/detector.yaml"));
+  EXPECT_NO_THROW(omr::loadSettings(settings, OUTDOOR_OMR_CONFIG "/detector.yaml"));
 }
 
 int main(int argc, char** argv)

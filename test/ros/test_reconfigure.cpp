@@ -2,17 +2,18 @@
 
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
+#include <outdoor_omr/CheckerboardArray.h>
+#include <outdoor_omr/TargetArray.h>
 #include <rosgraph_msgs/Log.h>
 
 #include <map>
 
-#include "message_types.h"
 #include "nodelet_manager.h"
 #include "ros_test.h"
 #include "sliders.h"
 
-using outdoor_omr::Parameter;
-using outdoor_omr::Settings;
+using omr::Parameter;
+using omr::Settings;
 using ros_test::Listener;
 using ros_test::NodeletManager;
 using ros_test::valueIn;
@@ -41,7 +42,7 @@ std::string current(const std::string& name)
 
 std::string defaultOf(const std::string& name)
 {
-  return outdoor_omr::getParameter(Settings(), name);
+  return omr::getParameter(Settings(), name);
 }
 
 /** Whether somebody logged these words at this level. */
@@ -99,7 +100,7 @@ class Eye
    */
   std::string look(const std::map<std::string, std::string>& values)
   {
-    for (const Parameter& parameter : outdoor_omr::parameters())
+    for (const Parameter& parameter : omr::parameters())
     {
       const auto value = values.find(parameter.name);
       set(parameter.name, value == values.end() ? defaultOf(parameter.name) : value->second);
@@ -127,8 +128,8 @@ class Eye
 
  private:
   const ros::Publisher camera_ = ros::NodeHandle().advertise<sensor_msgs::Image>("image", 1);
-  const Listener<outdoor_omr_msgs::CheckerboardArray> checkerboards_{"detector/checkerboards"};
-  const Listener<outdoor_omr_msgs::TargetArray> targets_{"detector/targets"};
+  const Listener<outdoor_omr::CheckerboardArray> checkerboards_{"detector/checkerboards"};
+  const Listener<outdoor_omr::TargetArray> targets_{"detector/targets"};
   const Listener<sensor_msgs::Image> overlay_{"detector/overlay"};
 };
 
@@ -153,7 +154,7 @@ class Reconfigure : public testing::Test
 TEST_F(Reconfigure, everySliderReadsBackWhatWasSet)
 {
   ASSERT_TRUE(NodeletManager::load());
-  for (const Parameter& parameter : outdoor_omr::parameters())
+  for (const Parameter& parameter : omr::parameters())
   {
     EXPECT_EQ(defaultOf(parameter.name), current(parameter.name)) << parameter.name;
     const std::string value = ros_test::otherValue(parameter);
@@ -216,7 +217,7 @@ TEST_F(Reconfigure, everySliderActsOnTheNextImage)
   ASSERT_TRUE(NodeletManager::load());
   Eye eye;
   ASSERT_TRUE(eye.open());
-  for (const Parameter& parameter : outdoor_omr::parameters())
+  for (const Parameter& parameter : omr::parameters())
   {
     const auto move = MOVES.find(parameter.name);
     ASSERT_NE(MOVES.end(), move) << "no test moves the slider " << parameter.name;

@@ -3,14 +3,15 @@
 
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
+#include <outdoor_omr/CheckerboardArray.h>
+#include <outdoor_omr/TargetArray.h>
 
 #include <atomic>
 #include <thread>
 
-#include "message_types.h"
 #include "ros_test.h"
 
-using outdoor_omr_msgs::TargetArray;
+using outdoor_omr::TargetArray;
 using ros_test::Listener;
 using ros_test::waitFor;
 using sensor_msgs::Image;
