@@ -20,7 +20,7 @@ constexpr double MIN_SURROUNDING = 3;  // width of what counts as around the rin
 
 const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
 {
-  static const auto logarithm_of_level = [] {
+  static const auto LOGARITHM_OF_LEVEL = [] {
     std::array<float, 255 * LEVELS_PER_GREY + 2> table{};
     for (std::size_t i = 0; i < table.size(); ++i)
     {
@@ -28,7 +28,7 @@ const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
     }
     return table;
   }();
-  return logarithm_of_level;
+  return LOGARITHM_OF_LEVEL;
 }
 
 /** Bilinear sample; the caller keeps x and y inside [0, size - 1). */

@@ -102,11 +102,8 @@ const Parameter& find(const std::string& name)
   {
     return *known;
   }
-  std::vector<std::string> names;
-  for (const Parameter& parameter : all)
-  {
-    names.push_back(parameter.name);
-  }
+  std::vector<std::string> names(all.size());
+  std::transform(all.begin(), all.end(), names.begin(), [](const Parameter& parameter) { return parameter.name; });
   throw std::invalid_argument("there is no parameter '" + name + "'; the nearest name is '" + nearestName(name, names) +
                               "'");
 }

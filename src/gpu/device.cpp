@@ -109,7 +109,7 @@ std::vector<Device> selectDevices(const std::string& name)
 
 std::string describeError(const cl::Error& error, const std::string& device)
 {
-  static const std::map<cl_int, std::string> names = {
+  static const std::map<cl_int, std::string> NAMES = {
       {CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE"},
       {CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE"},
       {CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
@@ -119,9 +119,9 @@ std::string describeError(const cl::Error& error, const std::string& device)
       {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
       {CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE"},
       {CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST, "CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST"}};
-  const auto name = names.find(error.err());
+  const auto name = NAMES.find(error.err());
   return std::string(error.what()) + " failed on " + device + ": " +
-         (name == names.end() ? "OpenCL error" : name->second) + " (" + std::to_string(error.err()) + ")";
+         (name == NAMES.end() ? "OpenCL error" : name->second) + " (" + std::to_string(error.err()) + ")";
 }
 
 }  // namespace omr

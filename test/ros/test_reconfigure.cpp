@@ -78,7 +78,7 @@ const std::map<std::string, Move> MOVES = {
     {"region_max_share", {"0.0001", true, {}}},
     {"detect_checkerboards", {"false", true, {}}},
     {"checkerboard_second_look", {"false", true, {}}},
-    {"checkerboard_looks", {"100", true, {}}},
+    {"checkerboard_looks", {"0", true, {}}},
     {"detect_targets", {"false", true, {}}},
     {"target_min_rings", {"9", true, {}}},
     {"overlay_regions", {"true", true, {}}},
