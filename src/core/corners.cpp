@@ -154,13 +154,11 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
   constexpr double RIDGE = 0.5;
   constexpr double MAX_RMS = 0.35;     // px; above it the surface is no better than the corners
   constexpr float MODEL_SHARE = 0.8F;  // of the surface in the result
-  constexpr double MIN_OUTLIER = 0.4;  // px
-  constexpr double OUTLIER_RMS = 4;
   refineAll(frame, lattice);
   const cv::Rect box = lattice.box;
   std::vector<bool> seen;
   LatticeModel model;
-  if (!model.fit(lattice, LatticeModel::cubic, RIDGE))
+  if (!model.fitSmooth(lattice, RIDGE))
   {
     return {};
   }
@@ -171,8 +169,7 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
     {
       LatticeNode& node = lattice.at(i, j);
       const cv::Point2f smooth = model.at(i, j);
-      const bool refuted =
-          explains && length(node.position - smooth) > std::max(MIN_OUTLIER, OUTLIER_RMS * model.rms());
+      const bool refuted = explains && model.isOutlier(length(node.position - smooth));
       seen.push_back(node.found && !refuted);
       if (!seen.back())
       {

@@ -13,14 +13,31 @@ namespace
 constexpr int ROUNDS = 4;              // of re-weighting; the set of outliers does not change any more
 constexpr double OUTLIER = 2.5;        // medians of the residuals at which a corner's weight is half
 constexpr double LEAST_MEDIAN = 0.04;  // px; nothing is measured better
+constexpr double MIN_OUTLIER = 0.4;    // px
+constexpr double OUTLIER_RMS = 4;
+constexpr int MIN_QUARTIC_CORNERS = 30;  // twice its terms
+constexpr double QUARTIC_RIDGE = 0.1;    // a stiffer one keeps the quartic from the outermost corners
 }  // namespace
 
 void LatticeModel::features(double row, double col, double (&values)[MAX_TERMS]) const
 {
   const double x = (col - col_) / half_width_;
   const double y = (row - row_) / half_height_;
-  const double all[MAX_TERMS] = {1,         x,         y,         x * y,     x * x,         y * y,
-                                 x * x * x, x * x * y, x * y * y, y * y * y, x * x * x * y, x * y * y * y};
+  const double all[MAX_TERMS] = {1,
+                                 x,
+                                 y,
+                                 x * y,
+                                 x * x,
+                                 y * y,
+                                 x * x * x,
+                                 x * x * y,
+                                 x * y * y,
+                                 y * y * y,
+                                 x * x * x * y,
+                                 x * y * y * y,
+                                 x * x * x * x,
+                                 x * x * y * y,
+                                 y * y * y * y};
   std::copy(std::begin(all), std::end(all), std::begin(values));
 }
 
@@ -121,7 +138,29 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
       weights[i] = 1 / (1 + std::pow(excess, 4));
     }
   }
+  outliers_ = static_cast<int>(
+      std::count_if(residuals.begin(), residuals.end(), [this](double residual) { return isOutlier(residual); }));
   return true;
+}
+
+bool LatticeModel::fitSmooth(const Lattice& lattice, double ridge)
+{
+  if (!fit(lattice, cubic, ridge))
+  {
+    return false;
+  }
+  LatticeModel finer;
+  if (outliers_ > 0 && lattice.count() >= MIN_QUARTIC_CORNERS && finer.fit(lattice, quartic, QUARTIC_RIDGE * ridge) &&
+      finer.outliers_ < outliers_)
+  {
+    *this = finer;
+  }
+  return true;
+}
+
+bool LatticeModel::isOutlier(double residual) const
+{
+  return residual > std::max(MIN_OUTLIER, OUTLIER_RMS * rms_);
 }
 
 }  // namespace omr
