@@ -183,7 +183,7 @@ int run(int argc, char** argv)
   const auto pipeline = std::make_shared<FillPipeline>(name);
   const auto fill = std::make_shared<DeviceFill>(
       devices.front(), devices.front().isCpu() ? omr::Geometry::strips : omr::Geometry::words);
-  std::cout << "device: " << pipeline->deviceName() << "\n";
+  std::cerr << "device: " << pipeline->deviceName() << "\n";
   for (const Picture& picture : pictures(files))
   {
     addWhole(picture, pipeline, Settings());
