@@ -149,7 +149,7 @@ void dropOutliers(Lattice& lattice)
   constexpr double MAX_MEDIANS = 5;
   LatticeModel model;
   if (lattice.count() < MIN_CORNERS || lattice.box.width < 3 || lattice.box.height < 3 ||
-      !(lattice.count() >= 30 ? model.fitSmooth(lattice, 0.1) : model.fit(lattice, LatticeModel::quadratic, 0.1)))
+      !model.fit(lattice, lattice.count() >= 30 ? LatticeModel::cubic : LatticeModel::quadratic, 0.1))
   {
     return;
   }

@@ -12,6 +12,7 @@ namespace
 {
 constexpr int ROUNDS = 4;              // of re-weighting; the set of outliers does not change any more
 constexpr double OUTLIER = 2.5;        // medians of the residuals at which a corner's weight is half
+constexpr double QUARTIC_OUTLIER = 5;  // its outermost corners decide much of it and must not lose their weight at once
 constexpr double LEAST_MEDIAN = 0.04;  // px; nothing is measured better
 constexpr double MIN_OUTLIER = 0.4;    // px
 constexpr double OUTLIER_RMS = 4;
@@ -112,6 +113,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
   col_ = box.x + (box.width - 1) / 2.;
   half_height_ = (box.height - 1) / 2.;
   half_width_ = (box.width - 1) / 2.;
+  const double outlier = terms == quartic ? QUARTIC_OUTLIER : OUTLIER;
   std::vector<double> weights(nodes.size(), 1);
   std::vector<double> residuals(nodes.size());
   for (int round = 0; round < (terms_ > 0 ? ROUNDS : 1); ++round)
@@ -134,7 +136,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
     median_ = sorted[sorted.size() / 2];
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-      const double excess = residuals[i] / (OUTLIER * std::max(LEAST_MEDIAN, median_));
+      const double excess = residuals[i] / (outlier * std::max(LEAST_MEDIAN, median_));
       weights[i] = 1 / (1 + std::pow(excess, 4));
     }
   }
