@@ -77,6 +77,7 @@ TEST(Checkerboards, findsEverySizeFrom5x7To21x21)
     EXPECT_EQ(size.width, boards[0].cols);
     EXPECT_LT(largestError(boards[0], size.height, size.width, truth), 0.2) << size;
     EXPECT_TRUE(boards[0].size_certain) << size;
+    EXPECT_EQ(1, boards[0].regularity) << size;
     expectConsistent(boards[0]);
   }
 }

@@ -30,7 +30,7 @@ struct Checkerboard
   std::vector<bool> inner_corners_seen;    ///< false: hidden, its position is predicted from the seen ones
 
   std::vector<cv::Point2f> squares;  ///< rows * cols forecast centres of the squares, row by row (paper, 3.4.1)
-  std::vector<bool> squares_seen;    ///< a region of the fill pipeline lies where the square was forecast
+  std::vector<bool> squares_seen;    ///< see regularity.h; one a square, row by row
   double regularity = 0;             ///< share of the forecast squares that are there [0, 1]
 
   /**

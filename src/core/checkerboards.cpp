@@ -192,7 +192,8 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
 {
   const std::vector<bool> seen = refineCorners(frame, candidate.lattice);
   Checkerboard board = orderCheckerboard(candidate.lattice, seen);
-  const Regularity regularity = checkRegularity(squareCorners(candidate.lattice), regions);
+  const Regularity regularity =
+      checkRegularity(squareCorners(candidate.lattice), board.rows, board.cols, regions, frame.grey.front());
   board.regularity = regularity.share;
   board.squares_seen = regularity.seen;
   const cv::Rect2f picture(0, 0, static_cast<float>(frame.raw_grey.cols - 1),
