@@ -136,7 +136,8 @@ TEST(Regularity, forecastRefusesWhatIsNoBoard)
 
 TEST(Regularity, theFourOuterSquaresForecastWhereInnerCornersAreWrong)
 {
-  // Both lines of corners around the fourth column are off by a third of a square: between them its squares would be missed.
+  // Both lines of corners around the fourth column are off by a third of a square: between them its squares would be
+  // missed.
   std::vector<cv::Point2f> corners = quads();
   for (int i = 0; i < ROWS; ++i)
   {
@@ -165,7 +166,10 @@ TEST(Regularity, onACurvedPlateTheSquaresAreSoughtBetweenTheirCorners)
   {
     region.center = bend(region.center);
   }
-  const auto r_ = check(corners, map); for (int i = 0; i < 35; ++i) std::cout << r_.seen[i] << (i % 7 == 6 ? "\n" : ""); EXPECT_DOUBLE_EQ(1, r_.share);
+  const auto r_ = check(corners, map);
+  for (int i = 0; i < 35; ++i)
+    std::cout << r_.seen[i] << (i % 7 == 6 ? "\n" : "");
+  EXPECT_DOUBLE_EQ(1, r_.share);
 }
 
 TEST(Regularity, countsWhatIsThereAndAcceptsHoles)

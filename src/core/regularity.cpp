@@ -54,9 +54,8 @@ Regularity countSeen(const std::vector<cv::Point2f>& forecast, const std::vector
   int seen = 0;
   for (std::size_t i = 0; i < squares.size(); ++i)
   {
-    const auto claims = std::count_if(regions.begin(), regions.end(), [&](const Region* region) {
-      return squares[i].admits(*region, forecast[i]);
-    });
+    const auto claims = std::count_if(regions.begin(), regions.end(),
+                                      [&](const Region* region) { return squares[i].admits(*region, forecast[i]); });
     result.seen.push_back(claims == 1);
     result.claimed_twice += claims > 1 ? 1 : 0;
     seen += claims == 1 ? 1 : 0;
