@@ -17,6 +17,7 @@ struct BorderLine
   int seen = 0;     ///< those of them that are there
   int edges = 0;    ///< places where only the edge of a dark square is there
   int goes_on = 0;  ///< places where four squares meet instead
+  int margins = 0;  ///< light squares of the rim that the margin follows, where a dark one would if the board went on
 
   /** The board ends at this line. */
   bool ends() const;

@@ -30,6 +30,12 @@ struct RimPlace
  */
 RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast);
 
+/**
+ * Whether the light square of the rim beside the place, on the other side than the dark one, is followed outwards by as
+ * light a margin, and inwards by a dark square.
+ */
+bool marginFollows(const Frame& frame, const RimPlace& place);
+
 }  // namespace omr
 
 #endif

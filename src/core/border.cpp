@@ -30,7 +30,16 @@ BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int
     const int across = -lattice.sign(node.row, node.col) * in;
     const bool is_corner_square = (t == start - 1 && across < 0) || (t == end && across > 0);
     RimPlace place;
-    if (is_corner_square || !predictNode(lattice, node.row, node.col, window, place.predicted))
+    place.along_row = isRow(side);
+    place.dark_u = isRow(side) ? across : in;
+    place.dark_v = isRow(side) ? in : across;
+    if (!predictNode(lattice, node.row, node.col, window, place.predicted))
+    {
+      continue;
+    }
+    const bool light_follows = across < 0 && t < end;  // each light square once, from the node before it
+    result.margins += light_follows && marginFollows(frame, place) ? 1 : 0;
+    if (is_corner_square)
     {
       continue;
     }
@@ -40,9 +49,6 @@ BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int
       continue;
     }
     ++result.places;
-    place.along_row = isRow(side);
-    place.dark_u = isRow(side) ? across : in;
-    place.dark_v = isRow(side) ? in : across;
     const RimLook look = lookAtRim(frame, place, contrast);
     result.seen += look == RimLook::outer_corner ? 1 : 0;
     result.edges += look == RimLook::outer_edge ? 1 : 0;

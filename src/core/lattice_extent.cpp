@@ -86,6 +86,8 @@ LineSupport lineSupport(const Lattice& lattice, CornerLooker& looker, Side side)
   LineSupport support;
   support.share = static_cast<float>(found) / static_cast<float>(end - start);
   support.enough = anchored >= 1 || (found >= 2 && support.share >= MIN_SHARE && convincing >= 1);
+  // The border beyond speaks for a line that lies alone behind a gap, where no prediction is sharp.
+  support.enough = support.enough || (found > 0 && lookAtBorder(lattice, looker.frame(), side, 1).ends());
   // A line where the board ends, rather than goes on, has more outer corners than inner ones.
   const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 0);
   support.enough = support.enough && border.seen <= found + border.goes_on;
@@ -120,7 +122,7 @@ void trim(Lattice& lattice, CornerLooker& looker)
 
 SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& border)
 {
-  constexpr int MIN_BORDER = 2;  // outer corners, the two of one rim square; something else gave one at most
+  constexpr int MIN_BORDER = 2;  // signs of it, as the two outer corners of a rim square; clutter gave one at most
   // Of the last line of inner corners; the more must be there, the less is seen of the border.
   constexpr float MIN_LINE_SHARE = 0.5F;
   constexpr float MIN_LINE_SHARE_ALONE = 0.8F;
@@ -135,7 +137,7 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   const int seen = border.seen + border.edges;
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
   const float share = found / static_cast<float>(lineLength(lattice, side));
-  const bool is_last = border.seen >= MIN_BORDER || share >= (seen > 0 ? MIN_LINE_SHARE : MIN_LINE_SHARE_ALONE);
+  const bool is_last = border.seen + border.margins >= MIN_BORDER || share >= (seen > 0 ? MIN_LINE_SHARE : MIN_LINE_SHARE_ALONE);
   return is_last && border.goes_on <= 1 + border.seen / 2 ? SideEvidence::rim : SideEvidence::none;
 }
 
@@ -182,7 +184,7 @@ void dropOutliers(Lattice& lattice)
 
 std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker)
 {
-  constexpr int MAX_HIDDEN_LINES = 2;
+  constexpr int MAX_HIDDEN_LINES = 3;
   trim(lattice, looker);
   std::array<BorderLine, 4> borders;
   for (const Side side : SIDES)

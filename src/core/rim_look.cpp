@@ -13,32 +13,37 @@ namespace
 constexpr float MIN_SQUARE_HEIGHT = 1.5F;  // px; the pixel grid resolves no less
 constexpr float MIN_GAP = 3;               // grey levels between light and dark squares
 
+constexpr float MAX_COLOR_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
+
+/** Shares of blue, green and red in their sum, at the nearest pixel, which lies in the image. */
+cv::Vec3f colorShares(const cv::Mat& bgr, const cv::Point2f& point)
+{
+  const cv::Vec3f color = bgr.at<cv::Vec3b>(cvRound(point.y), cvRound(point.x));
+  return color * (1 / std::max(1.F, color[0] + color[1] + color[2]));
+}
+
 /** Whether all quadrants but the dark one have one hue: a coloured thing over the rim is as light as the margin, but it
  * is not the margin. */
 bool haveOneColor(const cv::Mat& bgr, const LocalFrame& frame, int dark)
 {
-  constexpr float OFFSET = 0.3F;           // squares
-  constexpr float MAX_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
+  constexpr float OFFSET = 0.3F;  // squares
   cv::Vec3f least = cv::Vec3f::all(1);
   cv::Vec3f most = cv::Vec3f::all(0);
   for (int q = 0; q < QUADRANTS; ++q)
   {
     const cv::Point2f point = frame.at(OFFSET * QUADRANT_U[q], OFFSET * QUADRANT_V[q]);
-    const cv::Point pixel(cvRound(point.x), cvRound(point.y));
-    if (q == dark || !cv::Rect(cv::Point(), bgr.size()).contains(pixel))
+    if (q == dark || !isInside(bgr, point, 0))
     {
       continue;
     }
-    const cv::Vec3f color = bgr.at<cv::Vec3b>(pixel);
-    const cv::Vec3f shares = color * (1 / std::max(1.F, color[0] + color[1] + color[2]));
+    const cv::Vec3f shares = colorShares(bgr, point);
     for (int channel = 0; channel < 3; ++channel)
     {
       least[channel] = std::min(least[channel], shares[channel]);
       most[channel] = std::max(most[channel], shares[channel]);
     }
   }
-  const cv::Vec3f spread = most - least;
-  return std::max({spread[0], spread[1], spread[2]}) < MAX_DIFFERENCE;
+  return cv::norm(most - least, cv::NORM_INF) < MAX_COLOR_DIFFERENCE;
 }
 
 /**
@@ -68,6 +73,20 @@ bool endsAtLine(const PyramidView& view, const LocalFrame& frame, const cv::Poin
   }
   return true;
 }
+/** Unit steps in squares from a place of the rim: to its dark square along the border, and into the board. */
+struct RimAxes
+{
+  explicit RimAxes(const RimPlace& place)
+  {
+    const cv::Point2f u(static_cast<float>(place.dark_u), 0);
+    const cv::Point2f v(0, static_cast<float>(place.dark_v));
+    along = place.along_row ? u : v;
+    across = place.along_row ? v : u;
+  }
+
+  cv::Point2f along;
+  cv::Point2f across;
+};
 }  // namespace
 
 RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
@@ -113,15 +132,46 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   {
     return RimLook::inner_corner;
   }
-  const auto u = static_cast<float>(place.dark_u);
-  const auto v = static_cast<float>(place.dark_v);
-  const bool ends = place.along_row ? endsAtLine(view, place.predicted, {u, 0}, {0, v})
-                                    : endsAtLine(view, place.predicted, {0, v}, {u, 0});
+  const RimAxes axes(place);
+  const bool ends = endsAtLine(view, place.predicted, axes.along, axes.across);
   if (ends && haveOneColor(frame.bgr, place.predicted, dark))
   {
     return RimLook::outer_edge;
   }
   return RimLook::unclear;
+}
+
+bool marginFollows(const Frame& frame, const RimPlace& place)
+{
+  constexpr float MIN_EDGE = 0.4F;  // logarithm of the ratio
+  constexpr float MAX_FLAT = 0.2F;
+  const float height = squareHeight(place.predicted);
+  const RimAxes axes(place);
+  const auto at = [&](float depth) {
+    const cv::Point2f offset = -0.5F * axes.along + depth * axes.across;
+    return place.predicted.at(offset.x, offset.y);
+  };
+  if (height < MIN_SQUARE_HEIGHT || !isInside(frame.raw_grey, at(-0.5F), 2) || !isInside(frame.raw_grey, at(1.5F), 2))
+  {
+    return false;
+  }
+  const PyramidView view(frame, height);
+  const auto grey = [&](float depth) { return greyLogarithm(view.sample(at(depth))); };
+  const float light = grey(0.5F);
+  if (light - grey(1.5F) < MIN_EDGE)
+  {
+    return false;
+  }
+  const cv::Vec3f inside = colorShares(frame.bgr, at(0.5F));
+  for (const float depth : {0.25F, 0.F, -0.25F, -0.5F})
+  {
+    if (std::abs(grey(depth) - light) > MAX_FLAT ||
+        cv::norm(colorShares(frame.bgr, at(depth)) - inside, cv::NORM_INF) > MAX_COLOR_DIFFERENCE)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace omr
