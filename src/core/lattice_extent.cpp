@@ -137,7 +137,8 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   const int seen = border.seen + border.edges;
   const auto found = static_cast<float>(countOnLine(lattice, side, lineIndex(lattice, side, 0)));
   const float share = found / static_cast<float>(lineLength(lattice, side));
-  const bool is_last = border.seen + border.margins >= MIN_BORDER || share >= (seen > 0 ? MIN_LINE_SHARE : MIN_LINE_SHARE_ALONE);
+  const bool is_last =
+      border.seen + border.margins >= MIN_BORDER || share >= (seen > 0 ? MIN_LINE_SHARE : MIN_LINE_SHARE_ALONE);
   return is_last && border.goes_on <= 1 + border.seen / 2 ? SideEvidence::rim : SideEvidence::none;
 }
 

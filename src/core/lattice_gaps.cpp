@@ -15,10 +15,9 @@ namespace
 constexpr int REACH = 3;  // squares; with 4 the jump reaches the next board
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
-bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast, int row,
-                   int col, CornerLook& corner)
+bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast,
+                   float tolerance, int row, int col, CornerLook& corner)
 {
-  constexpr float TOLERANCE = 0.2F;
   constexpr float MIN_CORRELATION = 0.9F;
   constexpr float MIN_CONTRAST_SHARE = 0.4F;
   LocalFrame predicted;
@@ -36,7 +35,7 @@ bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeMo
   }
   CornerQuery query;
   query.sign = lattice.sign(row, col);
-  query.tolerance = TOLERANCE;
+  query.tolerance = tolerance;
   query.contrast = contrast;
   query.correlation = MIN_CORRELATION;
   corner = looker.look(predicted, query);
@@ -78,12 +77,15 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
 {
   constexpr int MAX_ROUNDS = 6;
   constexpr int MIN_CORNERS = 6;
-  constexpr double MAX_RESIDUAL = 0.06;  // squares, at which one homography still says where the next square is
+  constexpr float TOLERANCE = 0.2F;       // squares
+  constexpr float WIDE_TOLERANCE = 0.3F;  // once nothing is found within the other
+  constexpr double MAX_RESIDUAL = 0.06;   // squares, at which one homography still says where the next square is
   struct Find
   {
     int row, col;
     CornerLook corner;
   };
+  bool wide = false;
   for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS; ++round)
   {
     LatticeModel model;
@@ -104,7 +106,8 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
       {
         Find find{i, j, {}};
         if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j) &&
-            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, i, j, find.corner))
+            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, wide ? WIDE_TOLERANCE : TOLERANCE, i, j,
+                          find.corner))
         {
           finds.push_back(find);
         }
@@ -133,10 +136,11 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
     {
       lattice.put(find.row, find.col, find.corner);
     }
-    if (finds.empty())
+    if (finds.empty() && wide)
     {
       return;
     }
+    wide = finds.empty();
     growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
   }
 }
