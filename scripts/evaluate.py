@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""evaluate.py DATA_DIR [--sets doe,size] [--filters none,gaussian,median] [--output results/evaluate] [--set name=value]
+"""evaluate.py DATA_DIR [--sets doe,size] [--filters none,gaussian,median] [--peers sector,quads,mrgingham]
+            [--output results/evaluate] [--set name=value]
 
 Runs omr_detect over every set of DATA_DIR, calls the scorer DATA_DIR/score.py and writes one report folder:
   report.txt       the scorer's tables, one chapter a set
-  SET.FILTER.jsonl what was detected;  SET.json  what the scorer says of it
+  summary.md       the tables that README quotes
+  SET.FILTER.jsonl what was detected;  SET.json  what the scorer says of it;  SET.PEER.*  the same of a peer
   *.png            plots: recall over the size of squares and rings, over the hidden share, per lighting
   failures.jpg     contact sheet of the pictures with misses or false detections
 The set "doe", the paper's experiment, runs with every prefilter of --filters (the paper's third algorithm factor), each
-other set with the default one.
+other set with the default one. Peers are other detectors (see peers.py); they take hours for all sets.
 """
 import argparse
 import json
@@ -17,7 +19,9 @@ import subprocess
 import sys
 
 import contact_sheet
+import peers
 import plots
+import summary
 
 EXPERIMENT = 'doe'
 
@@ -73,11 +77,24 @@ def evaluate_set(arguments, name):
     return score(arguments.scorer, folder, detections, filters, os.path.join(arguments.output, name + '.json'))
 
 
+def evaluate_peer(arguments, peer, name):
+    """Runs and scores a peer on one set; returns its tables as text and its result."""
+    folder = os.path.join(arguments.data, name)
+    detections, result = (os.path.join(arguments.output, '%s.%s.%s' % (name, peer, end)) for end in ('jsonl', 'json'))
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'peers.py')
+    if subprocess.run([sys.executable, program, peer, folder, detections]).returncode != 0:
+        sys.exit('evaluate: the peer %s failed on %s' % (peer, folder))
+    print('%s: %s' % (name, peer), flush=True)
+    return score(arguments.scorer, folder, [detections], [peer], result)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('data')
     parser.add_argument('--sets', type=lambda text: text.split(','), help='only these, separated by commas')
     parser.add_argument('--filters', default='none,gaussian,median', help='prefilters for the set "doe"')
+    parser.add_argument('--peers', type=lambda text: text.split(','), default=[],
+                        help='also run these: ' + ', '.join(sorted(peers.PEERS)))
     parser.add_argument('--set', action='append', default=[], metavar='NAME=VALUE', help='a parameter of omr_detect')
     parser.add_argument('--output', default='results/evaluate')
     arguments = parser.parse_args()
@@ -86,16 +103,24 @@ def main():
         sys.exit('evaluate: the scorer %s is missing; it belongs beside the sets' % arguments.scorer)
     if shutil.which('omr_detect') is None:
         sys.exit('evaluate: omr_detect is not on PATH; call scripts/evaluate, which builds it')
+    unknown = sorted(set(arguments.peers) - set(peers.PEERS))
+    if unknown:
+        sys.exit('evaluate: no peer %s; there are %s' % (', '.join(unknown), ', '.join(sorted(peers.PEERS))))
     sets = find_sets(arguments.data, arguments.sets)
     os.makedirs(arguments.output, exist_ok=True)
 
-    pictures = []
+    pictures, results, peer_results = [], {}, {peer: {} for peer in arguments.peers}
     with open(os.path.join(arguments.output, 'report.txt'), 'w') as report:
         for name in sets:
-            text, scores = evaluate_set(arguments, name)
+            text, results[name] = evaluate_set(arguments, name)
+            has_boards = any(truth['checkerboards'] for truth in read_truth(os.path.join(arguments.data, name)))
+            for peer in arguments.peers if has_boards else []:
+                peer_text, peer_results[peer][name] = evaluate_peer(arguments, peer, name)
+                text += '\npeer: %s\n%s' % (peer, peer_text)
             print(text, flush=True)
             report.write(text)
-            pictures += scores['pictures']
+            pictures += results[name]['pictures']
+    summary.write(results, peer_results, EXPERIMENT, os.path.join(arguments.output, 'summary.md'))
     plots.write_all(pictures, arguments.output)
     shown = contact_sheet.write(pictures, arguments.data, arguments.output)
     print('%d pictures with misses or false detections; the report is in %s' % (shown, arguments.output))

@@ -35,7 +35,11 @@ def picture(image, hit, filter_name):
             'target': {'tp': 0, 'fp': 0, 'fn': 0}, 'boards': [dict(board, hit=hit)], 'targets': []}
 filters = sys.argv[sys.argv.index('--filters') + 1].split(',')
 pictures = [picture(image, image == 'a.png', name) for name in filters for image in ('a.png', 'b.png')]
-json.dump({'pictures': pictures}, open(sys.argv[sys.argv.index('--json') + 1], 'w'))
+kind = {'tp': 1, 'fp': 1, 'fn': 1, 'precision': .5, 'recall': .5}
+pool = {'pictures': len(pictures), 'checkerboard': kind, 'target': dict(kind, precision=None), 'color_accuracy': None,
+        'time_ms': {'mean': 5, 'median': 4, 'max': 9}}
+sets = {sys.argv[1].split('/')[-1]: {'all': pool}}
+json.dump({'pictures': pictures, 'sets': sets}, open(sys.argv[sys.argv.index('--json') + 1], 'w'))
 print('scored %d files' % (sys.argv.index('--filters') - 2))
 """
 
@@ -122,10 +126,12 @@ class Scripts(unittest.TestCase):
         result = self.evaluate()
         self.assertEqual(0, result.returncode, result.stderr)
         self.assertEqual({'doe.json', 'doe.none.jsonl', 'doe.gaussian.jsonl', 'doe.median.jsonl', 'other.json',
-                          'other.default.jsonl', 'report.txt', 'recall_size.png', 'recall_hidden.png', 'lighting.png',
+                          'other.default.jsonl', 'report.txt', 'summary.md', 'recall_size.png', 'recall_hidden.png', 'lighting.png',
                           'failures.jpg'}, set(os.listdir(self.path('report'))))
         with open(self.path('report', 'report.txt')) as file:
             self.assertEqual('scored 3 files\nscored 1 files\n', file.read())
+        with open(self.path('report', 'summary.md')) as file:
+            self.assertIn('| other (2) | 1 / 1 / 1 | 50.0, 50.0 | - | 1 / 1 / 1 | -, 50.0 | - | - | 4, 9 |', file.read())
         self.assertIn('4 pictures with misses or false detections', result.stdout)
         sheet = cv2.imread(self.path('report', 'failures.jpg')).astype(int)
         self.assertEqual((960, 1920), sheet.shape[:2])
@@ -141,6 +147,32 @@ class Scripts(unittest.TestCase):
         result = self.evaluate('--sets', 'dough')
         self.assertEqual(1, result.returncode)
         self.assertIn('it has doe, other', result.stderr)
+
+    def test_evaluate_beside_a_peer(self):
+        self.make_data()
+        self.assertEqual(0, self.evaluate('--sets', 'other', '--peers', 'quads').returncode)
+        self.assertTrue({'other.quads.json', 'other.quads.jsonl'} <= set(os.listdir(self.path('report'))))
+        with open(self.path('report', 'summary.md')) as file:
+            self.assertIn('| other | 1 / 1 / 1 | 1 / 1 / 1, - px, 4 ms |', file.read())
+        result = self.evaluate('--peers', 'squads')
+        self.assertEqual(1, result.returncode)
+        self.assertIn('no peer squads; there are mrgingham, quads, sector', result.stderr)
+
+    def test_peers_find_every_board_that_they_are_told(self):
+        pattern = np.kron(np.indices((5, 7)).sum(axis=0) % 2 * 255, np.ones((20, 20))).astype(np.uint8)
+        board = cv2.copyMakeBorder(pattern, 40, 40, 40, 40, cv2.BORDER_CONSTANT, value=255)
+        boards = [{'rows': 5, 'cols': 7}] * 2
+        self.write('two/truth.json', json.dumps({'images': [{'image': 'two.png', 'checkerboards': boards}]}))
+        cv2.imwrite(self.path('two', 'two.png'), np.hstack([board, board]))
+        for peer in ('quads', 'sector'):
+            result = self.run_script('peers.py', peer, self.path('two'), self.path('found.jsonl'))
+            self.assertEqual(0, result.returncode, result.stderr)
+            with open(self.path('found.jsonl')) as file:
+                found = json.load(file)['checkerboards']
+            self.assertEqual([(5, 7), (5, 7)], [(board['rows'], board['cols']) for board in found], peer)
+            self.assertEqual([24, 24], [len(board['inner_corners']) for board in found])
+            centers = sorted(np.mean(board['inner_corners'], axis=0)[0] for board in found)
+            self.assertTrue(np.allclose([109.5, 329.5], centers, atol=.1), centers)
 
     def test_evaluate_without_a_scorer(self):
         self.make_data()
