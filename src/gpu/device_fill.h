@@ -96,6 +96,7 @@ class DeviceFill
   bool sweep(int rounds);
   void mergeSeams();
   void findRegions();
+  void sumDistances();
   void reportRegions();
   Strips stripsOfDevice() const;
   Groups rows() const;

@@ -111,7 +111,7 @@ void DeviceFill::sumRegions(const AreaWindow& window)
   if (strips_.united)
   {
     launch("sumStrip", strips(), image_, step_, *buffers_.mask, size_.width, size_.height, strips_.rows, *buffers_.runs,
-           *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record, *buffers_.prefix,
+           *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record, *buffers_.scratch,
            *buffers_.records, buffers_.record_capacity, *buffers_.counters);
     launch("reduceRecords", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
            *buffers_.slot_record, *buffers_.records, buffers_.record_capacity, *buffers_.counters);
@@ -122,16 +122,35 @@ void DeviceFill::sumRegions(const AreaWindow& window)
            *buffers_.row_first, *buffers_.rank, *buffers_.parent, *buffers_.slot_record, *buffers_.records,
            buffers_.record_capacity, *buffers_.counters);
   }
-  launch("sumDistances", rows(), *buffers_.runs, *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot,
-         *buffers_.parent, *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.record_capacity,
-         *buffers_.counters);
+  sumDistances();
   reportRegions();
+}
+
+void DeviceFill::sumDistances()
+{
+  if (strips_.united)
+  {
+    launch("sumDistancesStrip", strips(), size_.height, strips_.rows, *buffers_.runs, *buffers_.row_first,
+           *buffers_.row_runs, *buffers_.run_slot, *buffers_.parent, *buffers_.slot_record, window_.min, window_.max,
+           *buffers_.records, buffers_.record_capacity, *buffers_.counters);
+    launch("reduceDistances", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
+           *buffers_.slot_record, *buffers_.records, buffers_.record_capacity, *buffers_.counters);
+  }
+  else
+  {
+    launch("sumDistancesWord", rows(), *buffers_.runs, *buffers_.row_first, *buffers_.row_runs, *buffers_.parent,
+           *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.record_capacity,
+           *buffers_.counters);
+  }
 }
 
 void DeviceFill::reportRegions()
 {
-  launch("reportRegions", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
+  launch("countReports", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
          *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.record_capacity,
+         *buffers_.counters, *buffers_.strip_reports);
+  launch("reportRegions", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
+         *buffers_.slot_record, window_.min, window_.max, *buffers_.records, *buffers_.strip_reports,
          *buffers_.reported, buffers_.reported_capacity, *buffers_.counters);
 }
 
@@ -153,7 +172,6 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
     else if (counters.reported > buffers_.reported_capacity)
     {
       buffers_.reserveReported(context_, counters.reported);
-      queue_.enqueueFillBuffer(*buffers_.counters, cl_uint(0), offsetof(Counters, reported), sizeof(cl_uint));
       reportRegions();
     }
     else
@@ -169,7 +187,6 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
                              (counters.reported - read) * sizeof(RegionSums), sums.data() + read);
   }
   expected_reports_ = counters.reported + counters.reported / 4 + 64;
-  std::sort(sums.begin(), sums.end(), [](const RegionSums& a, const RegionSums& b) { return a.label < b.label; });
   return static_cast<int>(counters.regions);
 }
 

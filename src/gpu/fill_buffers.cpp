@@ -50,10 +50,11 @@ void FillBuffers::reserve(const cl::Context& context, const cv::Size& size, cons
   slot_label.reserve(context, all_runs, sizeof(cl_int));
   slot_record.reserve(context, all_runs, sizeof(cl_int));
   strip_slots.reserve(context, strip_count, sizeof(cl_int));
+  strip_reports.reserve(context, strip_count, sizeof(cl_uint));
   counters.reserve(context, 1, sizeof(Counters));
   if (strips.united)
   {
-    prefix.reserve(context, strip_count * (size.width + 1), sizeof(cl_ulong));
+    scratch.reserve(context, strip_count * (size.width + 1 + divideUp(size.width, 64)), sizeof(cl_ulong));
   }
   reserveRecords(context, record_capacity == 0 ? FIRST_RECORDS : 0);
   reserveReported(context, reported_capacity == 0 ? FIRST_REPORTED : 0);

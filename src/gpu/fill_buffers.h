@@ -64,7 +64,8 @@ struct FillBuffers
   GrowingBuffer slot_label;   ///< of each slot: its first pixel
   GrowingBuffer slot_record;  ///< of each slot: its record
   GrowingBuffer strip_slots;  ///< of each strip: number of slots
-  GrowingBuffer prefix;       ///< of each strip: channel sums along a row
+  GrowingBuffer strip_reports;  ///< of each strip: records in the window of areas
+  GrowingBuffer scratch;      ///< of each strip: channel sums and outline of a row
   GrowingBuffer counters;
   GrowingBuffer records;   ///< of regions or of their parts
   GrowingBuffer reported;  ///< records in the window of areas
