@@ -8,17 +8,16 @@
  */
 INLINE float runDistance(int length, float dx, float dy)
 {
-  const int16 ramp = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const float16 dy2 = (float16)(dy * dy);
-  float16 x = (float16)dx + convert_float16(ramp);
-  float16 sum = (float16)0;
-  for (int i = 0; i < length; i += 16)
+  const int8 ramp = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const float8 dy2 = (float8)(dy * dy);
+  float8 x = (float8)dx + convert_float8(ramp);
+  float8 sum = (float8)0;
+  for (int i = 0; i < length; i += 8)
   {
-    sum += (int16)(length - i) > ramp ? sqrt(x * x + dy2) : (float16)0;
-    x += (float16)16;
+    sum += (int8)(length - i) > ramp ? sqrt(x * x + dy2) : (float8)0;
+    x += (float8)8;
   }
-  const float8 sum8 = sum.lo + sum.hi;
-  const float4 sum4 = sum8.lo + sum8.hi;
+  const float4 sum4 = sum.lo + sum.hi;
   return (sum4.x + sum4.y) + (sum4.z + sum4.w);
 }
 
