@@ -1,10 +1,11 @@
 #include "race.h"
 
 #include <benchmark/benchmark.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 
 namespace omr
 {
@@ -79,7 +80,7 @@ double quantile(std::vector<double> values, double share)
   {
     return 0;
   }
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto rank = std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[rank];
 }
