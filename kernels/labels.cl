@@ -2,16 +2,22 @@
 
 #include "mask.cl"
 
+/** 8 labels at any address in one store. */
+typedef struct __attribute__((packed))
+{
+  int8 labels;
+} Labels8;
+
 /** Writes value, value + slope, ... to pixels x .. end - 1; may overshoot within the row, which is written left to
  * right. */
 INLINE void fillPixels(global int* row, int width, int x, int end, int value, int slope)
 {
-  int16 values = (int16)value + (int16)slope * (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  for (; x < end && x <= width - 16; x += 16)
+  int8 values = (int8)value + (int8)slope * (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  for (; x < end && x <= width - 8; x += 8)
   {
-    vstore16(values, 0, row + x);
-    values += (int16)(16 * slope);
-    value += 16 * slope;
+    ((global Labels8*)(row + x))->labels = values;
+    values += (int8)(8 * slope);
+    value += 8 * slope;
   }
   for (; x < end; ++x)
   {

@@ -26,6 +26,12 @@ typedef struct
   uint changed;   // set by a round of sweeps that changed a label
 } Counters;
 
+/** The eight sums at the start of a record as one vector. */
+typedef struct __attribute__((packed))
+{
+  ulong8 sums;
+} FirstSums;
+
 INLINE RegionSums emptyRecord(int label)
 {
   const RegionSums record = {0, 0, 0, 0, 0, 0, 0, 0, 0, label, 0, 0, INT_MAX, INT_MAX, -1, -1, 0};
@@ -72,10 +78,11 @@ INLINE ulong sumOf(uint start, uint end)
   return (ulong)(end - start) * (start + end - 1) / 2;
 }
 
-/** Sum of the squares of 0 .. end - 1. */
-INLINE ulong squaresBelow(ulong end)
+/** Sum of the squares of the whole numbers start .. end - 1. */
+INLINE ulong squaresOf(ulong start, ulong end)
 {
-  return end == 0 ? 0 : (end - 1) * end * (2 * end - 1) / 6;
+  const ulong n = end - start;
+  return n * start * start + start * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6;
 }
 
 #endif

@@ -24,7 +24,8 @@ class DeviceError : public std::runtime_error
  * Image in, regions out (paper, sections 3.1 and 3.2, Table 1): filter, colour edges, seedless filling and region data
  * on an OpenCL device.
  *
- * Buffers are kept between images and grow when a larger image comes. Not thread-safe: one pipeline a thread.
+ * Buffers are kept between images; they grow when an image needs more, and shrink when 100 images in a row needed less
+ * than a quarter of one. docs/performance.md says how large they are. Not thread-safe: one pipeline a thread.
  */
 class FillPipeline
 {
@@ -70,6 +71,9 @@ class FillPipeline
 
   /** Why "auto" fell back to the reference; empty when it did not. */
   const std::string& fallbackReason() const;
+
+  /** Bytes of the buffers on the device, which is the host's memory where the device is a CPU; 0 for plain C++. */
+  std::size_t bufferBytes() const;
 
   /** "platform: device (type)" of every OpenCL device of this machine; empty when there is none. */
   static std::vector<std::string> devices();

@@ -61,8 +61,10 @@ void DeviceFill::filter(Filter filter, int size)
   {
     return;
   }
-  const std::string name = (filter == Filter::gaussian ? "gaussian" : "median") + std::to_string(size);
-  launch(name, rows(), image_, step_, size_.width, size_.height, *buffers_.filtered);
+  const char* gaussian = size == 3 ? "gaussian3" : "gaussian5";
+  const char* median = size == 3 ? "median3" : "median5";
+  launch(filter == Filter::gaussian ? gaussian : median, rows(), image_, step_, size_.width, size_.height,
+         *buffers_.filtered);
   filtered_ = last_event_;
   image_ = *buffers_.filtered;
   step_ = static_cast<cl_long>(size_.width) * 3;
@@ -136,6 +138,11 @@ void DeviceFill::readLabels(cv::Mat& labels)
     }
   });
   labelled_ = last_event_;
+}
+
+std::size_t DeviceFill::bytes() const
+{
+  return buffers_.bytes() + upload_.bytes() + edge_image_.bytes() + label_image_.bytes() + sweep_labels_.bytes();
 }
 
 void DeviceFill::finish()

@@ -74,6 +74,9 @@ class DeviceFill
    */
   int readSums(std::vector<RegionSums>& sums);
 
+  /** Bytes of all buffers on the device. */
+  std::size_t bytes() const;
+
   /** Waits until all is done and lets go of the image. */
   void finish();
 
@@ -88,7 +91,7 @@ class DeviceFill
 
  private:
   template <typename... Arguments>
-  void launch(const std::string& kernel, const Groups& groups, const Arguments&... arguments);
+  void launch(const char* kernel, const Groups& groups, const Arguments&... arguments);
   template <typename Write>
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
   void warmUp();
@@ -96,6 +99,7 @@ class DeviceFill
   bool sweep(int rounds);
   void mergeSeams();
   void findRegions();
+  void sumDistances();
   void reportRegions();
   Strips stripsOfDevice() const;
   Groups rows() const;
@@ -121,7 +125,7 @@ class DeviceFill
 };
 
 template <typename... Arguments>
-void DeviceFill::launch(const std::string& kernel, const Groups& groups, const Arguments&... arguments)
+void DeviceFill::launch(const char* kernel, const Groups& groups, const Arguments&... arguments)
 {
   last_event_ = program_.launch(queue_, kernel, groups, arguments...);
   if (loaded_() == nullptr)

@@ -48,7 +48,6 @@ FillMethod DeviceFill::labelRegions(FillMethod method, int sweep_rounds)
 void DeviceFill::findRuns(const Strips& strips)
 {
   strips_ = strips;
-  buffers_.reserve(context_, size_, strips_);
   if (strips_.united)
   {
     launch("runsStrip", this->strips(), *buffers_.mask, size_.width, size_.height, strips_.rows, *buffers_.runs,
@@ -101,7 +100,7 @@ void DeviceFill::findRegions()
   queue_.enqueueFillBuffer(*buffers_.counters, cl_uint(0), 0, sizeof(Counters));
   launch("findRegions", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
          *buffers_.slot_label, cl_int(strips_.united), *buffers_.slot_record, *buffers_.records,
-         buffers_.record_capacity, *buffers_.counters);
+         buffers_.recordCapacity(), *buffers_.counters);
   labelled_ = last_event_;
 }
 
@@ -111,49 +110,68 @@ void DeviceFill::sumRegions(const AreaWindow& window)
   if (strips_.united)
   {
     launch("sumStrip", strips(), image_, step_, *buffers_.mask, size_.width, size_.height, strips_.rows, *buffers_.runs,
-           *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record, *buffers_.prefix,
-           *buffers_.records, buffers_.record_capacity, *buffers_.counters);
+           *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record, *buffers_.scratch,
+           *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
     launch("reduceRecords", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
-           *buffers_.slot_record, *buffers_.records, buffers_.record_capacity, *buffers_.counters);
+           *buffers_.slot_record, *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
   }
   else
   {
     launch("sumWord", words(size_.height), image_, step_, *buffers_.mask, size_.width, size_.height, *buffers_.runs,
            *buffers_.row_first, *buffers_.rank, *buffers_.parent, *buffers_.slot_record, *buffers_.records,
-           buffers_.record_capacity, *buffers_.counters);
+           buffers_.recordCapacity(), *buffers_.counters);
   }
-  launch("sumDistances", rows(), *buffers_.runs, *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot,
-         *buffers_.parent, *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.record_capacity,
-         *buffers_.counters);
+  sumDistances();
   reportRegions();
+}
+
+void DeviceFill::sumDistances()
+{
+  if (strips_.united)
+  {
+    launch("sumDistancesStrip", strips(), size_.height, strips_.rows, *buffers_.runs, *buffers_.row_first,
+           *buffers_.row_runs, *buffers_.run_slot, *buffers_.parent, *buffers_.slot_record, window_.min, window_.max,
+           *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
+    launch("reduceDistances", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
+           *buffers_.slot_record, *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
+  }
+  else
+  {
+    launch("sumDistancesWord", rows(), *buffers_.runs, *buffers_.row_first, *buffers_.row_runs, *buffers_.parent,
+           *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.recordCapacity(),
+           *buffers_.counters);
+  }
 }
 
 void DeviceFill::reportRegions()
 {
+  launch("countReports", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
+         *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.recordCapacity(),
+         *buffers_.counters, *buffers_.strip_reports);
   launch("reportRegions", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
-         *buffers_.slot_record, window_.min, window_.max, *buffers_.records, buffers_.record_capacity,
-         *buffers_.reported, buffers_.reported_capacity, *buffers_.counters);
+         *buffers_.slot_record, window_.min, window_.max, *buffers_.records, *buffers_.strip_reports,
+         *buffers_.reported, buffers_.reportedCapacity(), *buffers_.counters);
 }
 
 int DeviceFill::readSums(std::vector<RegionSums>& sums)
 {
   Counters counters;
+  giveBack(sums, 2 * std::size_t(buffers_.reportedCapacity()));
   while (true)
   {
     // As many as the last image had arrive together with the counters: one wait for both.
-    sums.resize(std::min(expected_reports_, buffers_.reported_capacity));
+    sums.resize(std::min(expected_reports_, buffers_.reportedCapacity()));
     queue_.enqueueReadBuffer(*buffers_.counters, CL_FALSE, 0, sizeof(Counters), &counters);
     queue_.enqueueReadBuffer(*buffers_.reported, CL_TRUE, 0, sums.size() * sizeof(RegionSums), sums.data());
-    if (counters.records > buffers_.record_capacity)
+    if (counters.records > buffers_.recordCapacity())
     {
-      buffers_.reserveRecords(context_, counters.records);
+      buffers_.growRecords(context_, counters.records);
       findRegions();
       sumRegions(window_);
     }
-    else if (counters.reported > buffers_.reported_capacity)
+    else if (counters.reported > buffers_.reportedCapacity())
     {
-      buffers_.reserveReported(context_, counters.reported);
-      queue_.enqueueFillBuffer(*buffers_.counters, cl_uint(0), offsetof(Counters, reported), sizeof(cl_uint));
+      buffers_.growReported(context_, counters.reported);
       reportRegions();
     }
     else
@@ -168,8 +186,8 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
     queue_.enqueueReadBuffer(*buffers_.reported, CL_TRUE, read * sizeof(RegionSums),
                              (counters.reported - read) * sizeof(RegionSums), sums.data() + read);
   }
+  buffers_.needed(counters);
   expected_reports_ = counters.reported + counters.reported / 4 + 64;
-  std::sort(sums.begin(), sums.end(), [](const RegionSums& a, const RegionSums& b) { return a.label < b.label; });
   return static_cast<int>(counters.regions);
 }
 

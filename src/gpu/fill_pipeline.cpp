@@ -103,6 +103,7 @@ class FillPipeline::Implementation
       runReference(bgr, settings, outputs, map, steps);
     }
     map.regions.clear();
+    giveBack(map.regions, sums_.capacity());
     map.regions.reserve(sums_.size());
     for (const RegionSums& sums : sums_)
     {
@@ -126,6 +127,11 @@ class FillPipeline::Implementation
   const std::string& fallbackReason() const
   {
     return fallback_reason_;
+  }
+
+  std::size_t bytes() const
+  {
+    return fill_ ? fill_->bytes() : 0;
   }
 
  private:
@@ -224,6 +230,11 @@ const std::string& FillPipeline::deviceName() const
 const std::string& FillPipeline::fallbackReason() const
 {
   return implementation_->fallbackReason();
+}
+
+std::size_t FillPipeline::bufferBytes() const
+{
+  return implementation_->bytes();
 }
 
 std::vector<std::string> FillPipeline::devices()

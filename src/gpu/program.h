@@ -2,6 +2,7 @@
 #define OUTDOOR_OMR_GPU_PROGRAM_H
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -34,10 +35,9 @@ class Program
 
   /** Enqueues the kernel called name; the event is its own. */
   template <typename... Arguments>
-  cl::Event launch(const cl::CommandQueue& queue, const std::string& name, const Groups& groups,
-                   const Arguments&... arguments)
+  cl::Event launch(const cl::CommandQueue& queue, const char* name, const Groups& groups, const Arguments&... arguments)
   {
-    cl::Kernel& kernel = kernels_.at(name);
+    cl::Kernel& kernel = kernels_.find(name)->second;
     cl_uint index = 0;
     (kernel.setArg(index++, arguments), ...);
     cl::Event event;
@@ -48,7 +48,7 @@ class Program
 
  private:
   std::size_t lanes_;
-  std::map<std::string, cl::Kernel> kernels_;
+  std::map<std::string, cl::Kernel, std::less<>> kernels_;  // found without a copy of the name
 };
 
 }  // namespace omr

@@ -1,196 +1,274 @@
-// Times the steps of the fill pipeline beside what OpenCV offers for the same job, in one run, on drawn scenes or on
-// image files. Google Benchmark's own options apply; compare the columns CPU (of all threads) on a busy machine.
+// Times the steps of the fill pipeline and the whole detector beside what others offer for the same job, in turn, on
+// drawn scenes, on hard cases and on photographs. Google Benchmark's own options apply; the counters say more than its
+// columns: see race.h. scripts/benchmark makes a table of the ratios.
 
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
-#include <cstring>
-#include <functional>
 #include <iostream>
-#include <limits>
-#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
-#include "device_fill.h"
-#include "outdoor_omr/fill_pipeline.h"
+#include "edge_patterns.h"
+#include "our_steps.h"
+#include "outdoor_omr/detector.h"
 #include "outdoor_omr/reference_fill.h"
+#include "peers.h"
+#include "race.h"
 #include "scene.h"
 
-using omr::AreaWindow;
-using omr::DeviceFill;
+using omr::Contestant;
 using omr::FillMethod;
-using omr::FillPipeline;
 using omr::Filter;
+using omr::OurSteps;
+using omr::Picture;
+using omr::registerRace;
 using omr::Settings;
 
 namespace
 {
-const cv::Size SCENE_SIZES[] = {{512, 512}, {1280, 720}, {1920, 1080}, {3840, 2160}};
+const std::vector<cv::Size> SIZES = {{512, 512}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}, {7680, 4320}};
+const cv::Size FULL_HD(1920, 1080);
+constexpr std::array<Filter, 3> FILTERS = {Filter::none, Filter::gaussian, Filter::median};
 
-struct Picture
+struct Options
 {
-  std::string name;
-  cv::Mat bgr;
+  std::string device = "auto";
+  std::vector<std::string> files;
+  std::vector<int> squares = {5, 7};
 };
 
-void add(const Picture& picture, const std::string& name, const std::function<void()>& action)
+std::string nameOf(const cv::Size& size)
 {
-  benchmark::RegisterBenchmark((picture.name + "/" + name).c_str(),
-                               [action](benchmark::State& state) {
-                                 action();  // the first run grows the buffers
-                                 for (auto _ : state)
-                                 {
-                                   action();
-                                 }
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->MeasureProcessCPUTime()
-      ->UseRealTime();
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-void addFilters(const Picture& picture, const std::shared_ptr<DeviceFill>& fill)
+Settings settingsOf(Filter filter, FillMethod method = FillMethod::runs)
+{
+  Settings settings;
+  settings.filter = filter;
+  settings.fill_method = method;
+  settings.sweep_rounds = 100000;  // the sweeps settle
+  return settings;
+}
+
+cv::Mat edgesOfImage(const cv::Mat& image)
+{
+  return omr::edgeMask(image, Settings().sobel_threshold);
+}
+
+/** Black pixels are edges. */
+cv::Mat edgesOfPattern(const cv::Mat& image)
+{
+  cv::Mat channel;
+  cv::extractChannel(image, channel, 0);
+  return channel == 0;
+}
+
+cv::Mat patternImage(const cv::Mat& edges)
+{
+  cv::Mat image;
+  cv::cvtColor(edges == 0, image, cv::COLOR_GRAY2BGR);
+  return image;
+}
+
+/** Everything on a picture that the goals speak of. */
+void addSteps(const Picture& picture, const OurSteps& ours)
 {
   for (const int size : {3, 5})
   {
-    const std::string suffix = " " + std::to_string(size);
-    for (const Filter filter : {Filter::gaussian, Filter::median})
-    {
-      add(picture, (filter == Filter::gaussian ? "gaussian" : "median") + suffix, [=] {
-        fill->loadImage(picture.bgr);
-        fill->filter(filter, size);
-        fill->finish();
-      });
-    }
-    add(picture, "cv::GaussianBlur" + suffix, [=, blurred = cv::Mat()]() mutable {
-      cv::GaussianBlur(picture.bgr, blurred, {size, size}, 0, 0, cv::BORDER_REPLICATE);
-    });
-    add(picture, "cv::medianBlur" + suffix,
-        [=, blurred = cv::Mat()]() mutable { cv::medianBlur(picture.bgr, blurred, size); });
+    registerRace(picture, ours.filter(Filter::gaussian, size), omr::gaussianPeer(size));
+    registerRace(picture, ours.filter(Filter::median, size), omr::medianPeer(size));
+  }
+  registerRace(picture, ours.edges(), omr::sobelPeer());
+  registerRace(picture, ours.labels(edgesOfImage, FillMethod::runs), omr::componentsPeer(edgesOfImage));
+  registerRace(picture, ours.labelsAndRegionData(edgesOfImage, FillMethod::runs),
+               omr::componentsWithStatsPeer(edgesOfImage));
+  registerRace(picture, ours.pipeline(settingsOf(Filter::gaussian), true), omr::memcpyPeer());
+  for (const Filter filter : FILTERS)
+  {
+    registerRace(picture, ours.pipeline(settingsOf(filter)), omr::memcpyPeer());
+    registerRace(picture, ours.detector(settingsOf(filter)), omr::memcpyPeer());
   }
 }
 
-void addEdges(const Picture& picture, const std::shared_ptr<DeviceFill>& fill, int threshold)
+/** Edge masks and images that are hard for a labelling algorithm, or easy. */
+void addHardCases(const OurSteps& ours)
 {
-  add(picture, "edges", [=] {
-    fill->loadImage(picture.bgr);
-    fill->findEdges(threshold);
-    fill->finish();
-  });
-  add(picture, "cv::Sobel twice", [=, gx = cv::Mat(), gy = cv::Mat()]() mutable {
-    cv::Sobel(picture.bgr, gx, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-    cv::Sobel(picture.bgr, gy, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
-  });
+  for (std::size_t i = 0; i < omr::edgePatterns({1, 1}).size(); ++i)
+  {
+    const Picture picture = {omr::edgePatterns({1, 1})[i].name + " " + nameOf(FULL_HD),
+                             [i] { return patternImage(omr::edgePatterns(FULL_HD)[i].edges); }};
+    registerRace(picture, ours.labels(edgesOfPattern, FillMethod::runs), omr::componentsPeer(edgesOfPattern));
+    registerRace(picture, ours.labelsAndRegionData(edgesOfPattern, FillMethod::runs),
+                 omr::componentsWithStatsPeer(edgesOfPattern));
+    registerRace(picture, ours.pipeline(settingsOf(Filter::none)), omr::memcpyPeer());
+  }
+  const auto noise = [] {
+    cv::Mat image(FULL_HD, CV_8UC3);
+    cv::theRNG().state = 5;
+    cv::randu(image, 0, 256);
+    return image;
+  };
+  for (const Picture& picture :
+       {Picture{"noise image " + nameOf(FULL_HD), noise}, Picture{"40 boards " + nameOf(FULL_HD), [] {
+                                                                    return omr::drawBoards(FULL_HD, {8, 5}, {7, 5});
+                                                                  }}})
+  {
+    for (const Filter filter : FILTERS)
+    {
+      registerRace(picture, ours.pipeline(settingsOf(filter)), omr::memcpyPeer());
+      registerRace(picture, ours.detector(settingsOf(filter)), omr::memcpyPeer());
+    }
+  }
 }
 
-void addRegions(const Picture& picture, const std::shared_ptr<DeviceFill>& fill, const Settings& settings)
+void addDetectors(const Picture& picture, const OurSteps& ours, const cv::Size& squares)
 {
-  const cv::Mat edges = omr::edgeMask(picture.bgr, settings.sobel_threshold);
-  const cv::Mat open = edges == 0;
-  const auto label = [=](FillMethod method, cv::Mat& labels) {
-    fill->labelRegions(method, std::numeric_limits<int>::max());  // sweeps: until they settle
-    fill->readLabels(labels);
+  for (const Contestant& peer : omr::detectorPeers(squares))
+  {
+    registerRace(picture, ours.detector(Settings()), peer);
+  }
+}
+
+/** The paper's Tables 6 and 7 and its 1200 x 1000 case, by its own sweeps and by runs. */
+void addPaper(const OurSteps& ours)
+{
+  const auto add = [&](const Picture& picture) {
+    registerRace(picture, ours.filter(Filter::median, 3), omr::medianPeer(3));
+    for (const FillMethod method : {FillMethod::sweep, FillMethod::runs})
+    {
+      registerRace(picture, ours.labels(edgesOfImage, method), omr::componentsPeer(edgesOfImage));
+      registerRace(picture, ours.labelsAndRegionData(edgesOfImage, method), omr::componentsWithStatsPeer(edgesOfImage));
+      registerRace(picture, ours.pipeline(settingsOf(Filter::median, method)), omr::memcpyPeer());
+    }
   };
-  const auto prepared = [=](const std::function<void()>& action) {
-    return [=, ready = false]() mutable {
-      if (!ready)
+  add({"paper Table 6 1920x1080", [] { return omr::drawScene(FULL_HD); }});
+  add({"paper Table 7 512x512", [] { return omr::drawScene({512, 512}); }});
+  add({"paper Fig. 17 1200x1000", omr::drawPaperShapes});
+}
+
+/** Several cameras of one computer: a thread with a detector of its own each. */
+void cameras(benchmark::State& state, const std::string& device, const cv::Size& size)
+{
+  constexpr int FRAMES = 4;
+  const cv::Mat scene = omr::drawScene(size);
+  const int count = static_cast<int>(state.range(0));
+  std::vector<omr::Detector> detectors;
+  std::vector<omr::Samples> times(count);
+  for (int i = 0; i < count; ++i)
+  {
+    detectors.emplace_back(device);
+    detectors.back().detect(scene, Settings());
+  }
+  omr::Samples rounds;
+  for (auto _ : state)
+  {
+    rounds.add([&] {
+      std::vector<std::thread> threads;
+      for (int i = 0; i < count; ++i)
       {
-        fill->loadImage(picture.bgr);
-        fill->loadEdges(edges);
-        ready = true;
+        threads.emplace_back([&, i] {
+          for (int frame = 0; frame < FRAMES; ++frame)
+          {
+            times[i].add([&] { detectors[i].detect(scene, Settings()); });
+          }
+        });
       }
-      action();
-    };
-  };
-  add(picture, "labels", prepared([=, labels = cv::Mat()]() mutable {
-        label(FillMethod::runs, labels);
-        fill->finish();
-      }));
-  add(picture, "cv::connectedComponents",
-      [=, labels = cv::Mat()]() mutable { cv::connectedComponents(open, labels, 4); });
-  add(picture, "labels and region data", [=, labels = cv::Mat(), sums = std::vector<omr::RegionSums>()]() mutable {
-    fill->loadImage(picture.bgr);
-    label(FillMethod::runs, labels);
-    fill->sumRegions(AreaWindow());
-    fill->readSums(sums);
-    fill->finish();
-  });
-  add(picture, "cv::connectedComponentsWithStats",
-      [=, labels = cv::Mat(), stats = cv::Mat(), centers = cv::Mat()]() mutable {
-        cv::connectedComponentsWithStats(open, labels, stats, centers, 4);
-      });
-  if (picture.bgr.total() <= 512 * 512)  // the sweeps take seconds on larger images
-  {
-    add(picture, "labels by sweeps", prepared([=, labels = cv::Mat()]() mutable {
-          label(FillMethod::sweep, labels);
-          fill->finish();
-        }));
-  }
-}
-
-void addWhole(const Picture& picture, const std::shared_ptr<FillPipeline>& pipeline, const Settings& settings)
-{
-  for (const bool labels : {false, true})
-  {
-    add(picture, labels ? "whole with label image" : "whole", [=, map = omr::RegionMap()]() mutable {
-      FillPipeline::Outputs outputs;
-      outputs.labels = labels;
-      pipeline->run(picture.bgr, settings, outputs, map);
+      for (std::thread& thread : threads)
+      {
+        thread.join();
+      }
     });
   }
-  add(picture, "memcpy of the image", [=, copy = picture.bgr.clone()]() mutable {
-    std::memcpy(copy.data, picture.bgr.data, copy.total() * copy.elemSize());
-    benchmark::ClobberMemory();
-  });
+  std::vector<double> frames;
+  for (const omr::Samples& samples : times)
+  {
+    frames.insert(frames.end(), samples.wall.begin(), samples.wall.end());
+  }
+  state.counters["ms"] = omr::quantile(frames, 0.5);
+  state.counters["p99_ms"] = omr::quantile(frames, 0.99);
+  state.counters["cpu_ms"] = omr::quantile(rounds.cpu, 0.5) / (FRAMES * count);
+  state.counters["frames_per_second"] = 1e3 * FRAMES * count / omr::quantile(rounds.wall, 0.5);
 }
 
-std::vector<Picture> pictures(const std::vector<std::string>& files)
+void addCameras(const std::string& device)
 {
-  std::vector<Picture> all;
-  for (const std::string& file : files)
+  for (const cv::Size& size : {cv::Size(1280, 720), FULL_HD})
   {
-    const cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
-    if (bgr.empty())
-    {
-      throw std::runtime_error("cannot read the image " + file);
-    }
-    all.push_back({file.substr(file.find_last_of('/') + 1), bgr});
+    benchmark::RegisterBenchmark(("cameras " + nameOf(size)).c_str(),
+                                 [=](benchmark::State& state) { cameras(state, device, size); })
+        ->Arg(1)
+        ->Arg(2)
+        ->Arg(4)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   }
-  for (const cv::Size& size : SCENE_SIZES)
+}
+
+cv::Mat readImage(const std::string& file)
+{
+  const cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
+  if (bgr.empty())
   {
-    if (files.empty())
-    {
-      all.push_back({std::to_string(size.width) + "x" + std::to_string(size.height), omr::drawScene(size)});
-    }
+    throw std::runtime_error("cannot read the image " + file);
   }
-  return all;
+  return bgr;
+}
+
+void addPictures(const OurSteps& ours, const Options& options)
+{
+  for (const std::string& file : options.files)
+  {
+    const std::string name = file.substr(file.find_last_of('/') + 1) + " ";
+    readImage(file);  // complains now, not after an hour
+    for (const cv::Size& size : SIZES)
+    {
+      addSteps({name + nameOf(size),
+                [=] {
+                  cv::Mat scaled;
+                  cv::resize(readImage(file), scaled, size, 0, 0, cv::INTER_AREA);
+                  return scaled;
+                }},
+               ours);
+    }
+    addDetectors({name + "original", [=] { return readImage(file); }}, ours, {options.squares[0], options.squares[1]});
+  }
+  for (const cv::Size& size : SIZES)
+  {
+    addSteps({"scene " + nameOf(size), [=] { return omr::drawScene(size); }}, ours);
+  }
 }
 
 int run(int argc, char** argv)
 {
   benchmark::Initialize(&argc, argv);
-  CLI::App app{"Times the fill pipeline and OpenCV's functions for the same job."};
-  std::string name = "auto";
-  std::vector<std::string> files;
-  app.add_option("--device", name, "OpenCL device: auto, gpu, cpu or a part of its name");
-  app.add_option("images", files, "image files (default: drawn scenes of several sizes)");
+  CLI::App app{"Times the fill pipeline, the detector and what others offer for the same job."};
+  Options options;
+  app.add_option("--device", options.device, "OpenCL device: auto, gpu, cpu or a part of its name");
+  app.add_option("--squares", options.squares, "Columns and rows of the boards in the image files, for the peers")
+      ->expected(2)
+      ->capture_default_str();
+  app.add_option("images", options.files, "Image files, each of them scaled to all sizes");
   CLI11_PARSE(app, argc, argv);
-  const std::vector<omr::Device> devices = omr::selectDevices(name);
-  if (devices.empty())
+  const OurSteps ours(options.device);
+  std::cerr << "device: " << ours.deviceName() << "\n";
+  addPictures(ours, options);
+  addHardCases(ours);
+  for (const cv::Size& size : SIZES)
   {
-    throw omr::DeviceError("no OpenCL device is present");
+    if (size.area() <= FULL_HD.area())  // beyond, findChessboardCornersSB takes a minute
+    {
+      addDetectors({"one board " + nameOf(size),
+                    [=] {
+                      return omr::drawBoards(size, {1, 1}, {11, 11});
+                    }},
+                   ours, {11, 11});
+    }
   }
-  const auto pipeline = std::make_shared<FillPipeline>(name);
-  const auto fill = std::make_shared<DeviceFill>(
-      devices.front(), devices.front().isCpu() ? omr::Geometry::strips : omr::Geometry::words);
-  std::cerr << "device: " << pipeline->deviceName() << "\n";
-  for (const Picture& picture : pictures(files))
-  {
-    addWhole(picture, pipeline, Settings());
-    addFilters(picture, fill);
-    addEdges(picture, fill, Settings().sobel_threshold);
-    addRegions(picture, fill, Settings());
-  }
+  addPaper(ours);
+  addCameras(options.device);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
