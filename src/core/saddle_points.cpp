@@ -55,33 +55,42 @@ void saddleResponse(const uchar* above, const uchar* here, const uchar* below, i
   respond(width - 1 - LANES);
 }
 
-/** Calls the action for every x with a response above the threshold. */
+using Rows = std::array<const std::int16_t*, 3>;  // responses of three rows, from top to bottom
+
+/** Of eight neighbouring pixels one bit each: whether the response exceeds the least and is a maximum of 3 x 3. */
+int maxima(const Rows& rows, int x, const cv::v_int16x8& least)
+{
+  const auto at = [&](int row, int offset) { return cv::v_load(rows[row] + x + offset); };
+  const cv::v_int16x8 value = at(1, 0);
+  const cv::v_int16x8 strong = value > least;
+  if (!cv::v_check_any(strong))
+  {
+    return 0;
+  }
+  // Of two equal neighbours the first one counts.
+  const cv::v_int16x8 before = cv::v_max(cv::v_max(at(0, -1), at(0, 0)), cv::v_max(at(0, 1), at(1, -1)));
+  const cv::v_int16x8 after = cv::v_max(cv::v_max(at(2, -1), at(2, 0)), cv::v_max(at(2, 1), at(1, 1)));
+  return cv::v_signmask(strong & (value > before) & (value >= after));
+}
+
+/** Calls the action for every x with a response that exceeds the least and is a maximum of 3 x 3. */
 template <typename Action>
-void forEachStrong(const std::int16_t* response, int width, int least, const Action& action)
+void forEachMaximum(const Rows& rows, int width, int least, const Action& action)
 {
   const cv::v_int16x8 threshold = cv::v_setall_s16(static_cast<short>(least));
-  for (int x = MARGIN; x < width - MARGIN; x += LANES)
+  const int end = width - MARGIN;
+  for (int x = MARGIN; x < end; x += LANES)
   {
-    const int end = std::min(x + LANES, width - MARGIN);
-    if (end < x + LANES || cv::v_check_any(cv::v_load(response + x) > threshold))
+    const int first = std::min(x, end - LANES);  // the last eight overlap those before
+    const int found = maxima(rows, first, threshold);
+    for (int i = x - first; found >> i != 0; ++i)
     {
-      for (int i = x; i < end; ++i)
+      if ((found >> i & 1) != 0)
       {
-        if (response[i] > least)
-        {
-          action(i);
-        }
+        action(first + i);
       }
     }
   }
-}
-
-bool isMaximum(const std::array<const std::int16_t*, 3>& rows, int x)
-{
-  const std::int16_t value = rows[1][x];
-  // Of two equal neighbours the first one counts.
-  return value > rows[1][x - 1] && value >= rows[1][x + 1] && value > rows[0][x - 1] && value > rows[0][x] &&
-         value > rows[0][x + 1] && value >= rows[2][x - 1] && value >= rows[2][x] && value >= rows[2][x + 1];
 }
 
 bool isPointSymmetric(const cv::Mat& grey, int x, int y, int min_range)
@@ -252,21 +261,19 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
   {
     return points;
   }
-  cv::Mat smooth;
-  cv::GaussianBlur(grey, smooth, cv::Size(5, 5), 1);
-  const int width = smooth.cols;
+  const int width = grey.cols;
   std::vector<std::int16_t> buffer(3 * width, 0);
   std::array<std::int16_t*, 3> rows = {buffer.data(), buffer.data() + width, buffer.data() + 2 * width};
-  for (int y = MARGIN - 1; y <= smooth.rows - MARGIN; ++y)
+  for (int y = MARGIN - 1; y <= grey.rows - MARGIN; ++y)
   {
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
-    saddleResponse(smooth.ptr<uchar>(y - 1), smooth.ptr<uchar>(y), smooth.ptr<uchar>(y + 1), width, rows[2]);
+    saddleResponse(grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), width, rows[2]);
     if (y < MARGIN + 1)
     {
       continue;
     }
-    forEachStrong(rows[1], width, least.response, [&](int x) {
-      if (isMaximum({rows[0], rows[1], rows[2]}, x) && isPointSymmetric(smooth, x, y - 1, least.range))
+    forEachMaximum({rows[0], rows[1], rows[2]}, width, least.response, [&](int x) {
+      if (isPointSymmetric(grey, x, y - 1, least.range))
       {
         found.push_back({rows[1][x], {x, y - 1}});
       }
@@ -289,7 +296,7 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
 
 std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, const SearchMap& open)
 {
-  const cv::Mat& grey = level == 0 ? frame.raw_grey : frame.grey[level];
+  const cv::Mat& grey = frame.grey[level];
   const auto scale = static_cast<float>(1 << level);
   const std::vector<cv::Point> points = findSaddlePoints(grey, faint, faint ? MAX_FAINT_POINTS : MAX_POINTS);
   const PointGrid grid(points, grey.size());
