@@ -61,24 +61,25 @@ void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
 }
 
 /** Grows a lattice from the seed, giving up as early as clutter shows. @return false if it is none. */
-bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
+bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
 {
   CornerQuery query;
   query.tolerance = 0.3F;
-  const CornerLook corner = looker.look(seed, query);
+  query.search = !seed.is_saddle_point;
+  const CornerLook corner = looker.look(seed.frame, query);
   if (!corner.found)
   {
-    map.addFailure(seed.node, squareHeight(seed));
+    map.addFailure(seed.frame.node, squareHeight(seed.frame));
     return false;
   }
-  lattice.start(seed, corner);
+  lattice.start(seed.frame, corner);
   // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
   for (int count = 9; count < UNLIMITED; count *= 2)
   {
     growLattice(lattice, looker, count);
     if (lattice.count() < MIN_CORNERS)
     {
-      map.addFailure(seed.node, squareHeight(seed));
+      map.addFailure(seed.frame.node, squareHeight(seed.frame));
       return false;
     }
     Evidence evidence = latticeEvidence(lattice);
@@ -162,7 +163,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
       return;
     }
     const int looks = looker.looksLeft();
-    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed.frame, looker, lattice, map))
+    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed, looker, lattice, map))
     {
       continue;
     }

@@ -312,7 +312,7 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   const bool searched = !found;
   if (searched)
   {
-    if (!searchRing(view, predicted, query, corner.node))
+    if (!query.search || !searchRing(view, predicted, query, corner.node))
     {
       return result;
     }

@@ -238,7 +238,7 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
       const float gap = alternation(grey, frame);
       if (gap >= least_gap)
       {
-        seed = {frame, static_cast<int>(gap)};
+        seed = {frame, true, static_cast<int>(gap)};
         return true;
       }
     }
