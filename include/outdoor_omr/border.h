@@ -16,6 +16,7 @@ struct BorderLine
   int outside = 0;  ///< outer corners forecast outside the picture
   int seen = 0;     ///< those of them that are there
   int edges = 0;    ///< places where only the edge of a dark square is there
+  int bare = 0;     ///< places where a dark and a light square end at one plain ground, without a margin
   int goes_on = 0;  ///< places where four squares meet instead
   int margins = 0;  ///< light squares of the rim that the margin follows, where a dark one would if the board went on
 

@@ -13,6 +13,12 @@ bool BorderLine::mayEnd() const
 bool BorderLine::ends() const
 {
   constexpr float MIN_SHARE = 0.5F;
+  constexpr int MIN_BARE = 4;  // an object over the board ends squares too, but not four along one line of them
+  constexpr float MIN_BARE_SHARE = 0.7F;
+  if (bare >= MIN_BARE && goes_on == 0 && static_cast<float>(bare) >= MIN_BARE_SHARE * static_cast<float>(places))
+  {
+    return true;
+  }
   return seen >= 2 && seen > goes_on && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
 }
 
@@ -52,6 +58,7 @@ BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int
     const RimLook look = lookAtRim(frame, place, contrast);
     result.seen += look == RimLook::outer_corner ? 1 : 0;
     result.edges += look == RimLook::outer_edge ? 1 : 0;
+    result.bare += look == RimLook::bare_edge ? 1 : 0;
     result.goes_on += look == RimLook::inner_corner ? 1 : 0;
   }
   return result;

@@ -102,8 +102,10 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
   return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
-         std::any_of(SIDES.begin(), SIDES.end(),
-                     [&](Side side) { return lookAtBorder(lattice, looker.frame(), side, 1).seen >= 2; });
+         std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
+           const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
+           return border.seen >= 2 || border.ends();
+         });
 }
 
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
