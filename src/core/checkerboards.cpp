@@ -23,12 +23,16 @@ namespace
 constexpr int MIN_SHORT_SIDE = 4;
 constexpr int MIN_LONG_SIDE = 6;
 constexpr int MAX_SIDE = 20;
+constexpr int MAX_OVERGROWTH = 4;  // lines of false corners in the margin under the shadow of a fence; trimmed later
 constexpr float MIN_FILL = 0.35F;
 // Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
 constexpr float MAX_DOUBT = 2.3F;
 constexpr float MAX_BORDERED_DOUBT = 3.5F;  // with a border on all four sides, which clutter does not have
 // Gratings and grids of vents alternate as well, but they have no border and blurred corners.
 constexpr float BORDERLESS_CORRELATION = 0.98F;
+// Nor are they whole: this many corners without gaps are a board whose border the shadow of a fence hides.
+constexpr int BORDERLESS_CORNERS = 40;
+constexpr float BORDERLESS_FILL = 0.9F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
 constexpr float MAX_GROWN_DOUBT = 2;  // from 36 corners on
 constexpr int MIN_CORNERS = 6;        // within reach of one another, or it is no lattice
@@ -85,7 +89,7 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
     if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) ||
-        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + MAX_OVERGROWTH)
     {
       noteFailure(lattice, 1, map);
       return false;
@@ -98,10 +102,17 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
   return true;
 }
 
+/** Whether the corners alone speak for a board, with no border seen. */
+bool isClear(const Lattice& lattice, const Evidence& evidence)
+{
+  return evidence.correlation >= BORDERLESS_CORRELATION ||
+         (lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL);
+}
+
 /** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
-  return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
+  return isClear(lattice, latticeEvidence(lattice)) ||
          std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
            const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
            return border.seen >= 2 || border.ends();
@@ -118,7 +129,7 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
          evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
-         (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on && height >= MIN_SQUARE &&
+         (borders > 0 || isClear(lattice, evidence)) && !goes_on && height >= MIN_SQUARE &&
          (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
