@@ -34,7 +34,7 @@ constexpr float BORDERLESS_CORRELATION = 0.98F;
 constexpr int BORDERLESS_CORNERS = 40;
 constexpr float BORDERLESS_FILL = 0.9F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
-constexpr float MAX_GROWN_DOUBT = 2;  // from 36 corners on
+constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
 constexpr int MIN_CORNERS = 6;        // within reach of one another, or it is no lattice
 constexpr float SMALL_SQUARE = 5;     // px; below it nearly all corners must be found
 constexpr float SMALL_SQUARE_FILL = 0.85F;
@@ -112,7 +112,7 @@ bool isClear(const Lattice& lattice, const Evidence& evidence)
 /** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
-  return isClear(lattice, latticeEvidence(lattice)) ||
+  return lattice.count() >= BORDERLESS_CORNERS || latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
          std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
            const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
            return border.seen >= 2 || border.ends();
