@@ -155,7 +155,8 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   }
   // The quadrants run around the node, so the light square of the rim is beside the dark one along the border.
   const int next = (dark + 1) % QUADRANTS;
-  const bool next_is_inside = place.along_row ? QUADRANT_V[next] == QUADRANT_V[dark] : QUADRANT_U[next] == QUADRANT_U[dark];
+  const bool next_is_inside =
+      place.along_row ? QUADRANT_V[next] == QUADRANT_V[dark] : QUADRANT_U[next] == QUADRANT_U[dark];
   const float light_inside = next_is_inside ? beside_a : beside_b;
   const float dark_outside = next_is_inside ? beside_b : beside_a;
   if (light_inside - median[dark] > least_gap && endAtGround(median[dark], light_inside, dark_outside, opposite) &&
