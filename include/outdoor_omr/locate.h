@@ -33,13 +33,18 @@ struct Sighting
 };
 
 /**
- * Recognises parts by the combination of their markers and measures their poses.
+ * Recognises parts by the combination of their markers (paper, sections 3.4 and 4.1) and measures their poses.
  *
  * Every seen board starts a candidate for every board of its size in the parts file, in every orientation that its
- * squares allow; the part's other markers are then looked for where the pose expects them. A target of other colours at
- * such a place refutes the candidate. More markers beat fewer; among equals the reprojection error decides, if it does
- * (isRival()), else all are reported. A board whose size is not certain carries a part only together with another
- * marker of it, and as any section of the part's board.
+ * squares allow; the part's other markers are then looked for where the pose expects them. Markers that are there speak
+ * for the candidate, targets of other colours there against it; one that just is not seen does not count. More markers
+ * beat fewer; among equals the reprojection error decides, if it does (isRival()), else all are reported. Nothing is
+ * excluded by a marker that speaks against it alone: that may be misread. What only such markers remain of is not
+ * reported: it is a foreign thing with a like board.
+ *
+ * A board whose size is not certain carries a part only together with another marker of it, and as any section of the
+ * part's board. A part is at one place: where several groups of markers carry it, that with the most has it, and equals
+ * are the candidates of one sighting.
  *
  * @param camera must be that of the image in which the markers were found.
  * @return one for each group of markers that fits a part; a marker belongs to one sighting.

@@ -19,7 +19,7 @@ YamlFile YamlFile::load(const std::string& file)
 {
   try
   {
-    return YamlFile(file, "", YAML::LoadFile(file), 1);
+    return {file, "", YAML::LoadFile(file), 1};
   }
   catch (const YAML::BadFile&)
   {
@@ -34,6 +34,11 @@ YamlFile YamlFile::load(const std::string& file)
 void YamlFile::fail(const std::string& message) const
 {
   throw std::invalid_argument(file_ + ":" + std::to_string(line_) + ": " + (key_.empty() ? "" : key_ + ": ") + message);
+}
+
+const std::string& YamlFile::key() const
+{
+  return key_;
 }
 
 bool YamlFile::has(const std::string& key) const
@@ -52,7 +57,7 @@ YamlFile YamlFile::get(const std::string& key, const std::string& expected) cons
   {
     fail("the key '" + key + "' is missing: expected " + expected);
   }
-  return YamlFile(file_, (key_.empty() ? "" : key_ + ".") + key, value, value.Mark().line + 1);
+  return {file_, (key_.empty() ? "" : key_ + ".") + key, value, value.Mark().line + 1};
 }
 
 void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string& expected) const

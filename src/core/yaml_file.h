@@ -20,6 +20,9 @@ class YamlFile
   /** Throws with file, line and key: "FILE:LINE: KEY: MESSAGE". */
   [[noreturn]] void fail(const std::string& message) const;
 
+  /** From the root, as in parts[0].name. */
+  const std::string& key() const;
+
   bool has(const std::string& key) const;
 
   /** The value of a map. `expected` says what is to be there if it is not. */
@@ -41,7 +44,7 @@ class YamlFile
   YamlFile(std::string file, std::string key, const YAML::Node& node, int line);
 
   std::string file_;
-  std::string key_;  // from the root, as in parts[0].name
+  std::string key_;
   YAML::Node node_;
   int line_;
 };
