@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "reprojection.h"
 
@@ -14,6 +15,7 @@ constexpr int MIN_PAIRS = 4;
 constexpr double CAUCHY = 2.385;            // standard deviations; 95 % efficiency on normal noise
 constexpr double OUTLIER = 4.5;             // standard deviations; a good point lies farther once in 25000 times
 constexpr int REJECTIONS = 5;               // rounds
+constexpr double SETTLED = 0.01;            // change of the residuals' scale from round to round
 constexpr double RAYLEIGH_MEDIAN = 1.1774;  // median length of a plane vector of unit normals
 constexpr double MIN_SCALE = 0.2;           // of sigma: 0.01 px for a corner, which no image reaches
 constexpr double MAX_RMS_ERROR = 2;         // [px]; a wrong size or orientation of a board gives tens
@@ -108,7 +110,11 @@ bool refinePose(const std::vector<PointPair>& pairs, const Camera& camera, Pose&
     {
       return false;
     }
-    scale = robustScale(residuals);
+    const double last_scale = std::exchange(scale, robustScale(residuals));
+    if (std::abs(scale - last_scale) < SETTLED * scale)
+    {
+      break;
+    }
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
       problem.weights()[i] = 1 / (1 + residuals[i].dot(residuals[i]) / std::pow(CAUCHY * scale, 2));

@@ -7,9 +7,9 @@ namespace omr
 {
 namespace
 {
-constexpr int MAX_STEPS = 30;        // of Levenberg-Marquardt; from IPPE 4 to 8 are needed
-constexpr double CONVERGED = 1e-10;  // relative gain of a step
-constexpr double FLATTEST = 1e-6;    // squared ratio of a plane's extents, below which it is a line
+constexpr int MAX_STEPS = 30;       // of Levenberg-Marquardt; from IPPE 4 to 8 are needed
+constexpr double CONVERGED = 1e-8;  // relative gain of a step: a thousandth of a standard deviation
+constexpr double FLATTEST = 1e-6;   // squared ratio of a plane's extents, below which it is a line
 
 cv::Matx33d cross(const cv::Vec3d& v)
 {

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
-
-#include "outdoor_omr/settings.h"
 
 namespace omr
 {
@@ -73,7 +72,10 @@ void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string
     const std::string key = at.text("a key");
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
     {
-      at.fail("there is no key '" + key + "'; the nearest is '" + nearestName(key, keys) + "'");
+      const std::string known =
+          std::accumulate(keys.begin() + 1, keys.end(), keys.front(),
+                          [](const std::string& list, const std::string& next) { return list + ", " + next; });
+      at.fail("there is no key '" + key + "': expected one of " + known);
     }
     if (!found.insert(key).second)
     {
