@@ -165,6 +165,18 @@ TEST_F(Locate, unknownColorAgreesWithAll)
   expectCertain(locate(view, {plate()}), "plate", pose_);
 }
 
+TEST_F(Locate, smallTargetWithRingsRunTogetherDoesNotCount)
+{
+  PartView view(camera_);
+  view.add(flatBoard(), pose_);
+  view.add(LEFT, pose_, "RPGB");  // RWPGB whose white ring was not resolved
+  std::vector<Sighting> sightings = locate(view, {plate()});
+  ASSERT_EQ(sightings.size(), 1U);
+  EXPECT_EQ(sightings[0].candidates.size(), 2U);
+  view.add(RIGHT, pose_);
+  expectCertain(locate(view, {plate()}), "plate", pose_);
+}
+
 TEST_F(Locate, otherColorsRefuteWithoutMakingTheOppositeCertain)
 {
   PartView view(camera_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "board_surface.h"
+#include "marker_pose.h"
 
 namespace omr
 {
@@ -93,17 +94,6 @@ std::vector<PointPair> sectionPairs(const Checkerboard& seen, const PartCheckerb
   return pairs;
 }
 
-/** The poses of a section in its own frame; the second only where it is a rival of the first. */
-std::vector<Pose> sectionPoses(const std::vector<PointPair>& pairs, const Camera& camera)
-{
-  std::vector<Pose> poses = solvePose(pairs, camera);
-  if (poses.size() > 1 && !isRival(poses[0], poses[1]))
-  {
-    poses.resize(1);
-  }
-  return poses;
-}
-
 /** A hypothesis of a section's pose and place: its points and pose are told in the frame of the part. */
 PartHypothesis hypothesis(const Part& part, std::size_t index, const cv::Affine3d& part_section, const Pose& pose,
                           const std::vector<PointPair>& pairs)
@@ -130,7 +120,7 @@ void addHypotheses(const Checkerboard& seen, const Part& part, std::size_t index
       continue;
     }
     const std::vector<PointPair> pairs = sectionPairs(seen, board, turned);
-    for (const Pose& pose : sectionPoses(pairs, camera))
+    for (const Pose& pose : solveMarkers(pairs, camera))
     {
       for (const Placement& place : places)
       {

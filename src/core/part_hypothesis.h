@@ -11,8 +11,6 @@
 
 namespace omr
 {
-constexpr double CORNER_SIGMA = 0.05;  // [px] of an inner corner
-
 /** What a seen board can be: a board of a part, or a section of it, in one of the orientations its squares allow. */
 struct PartHypothesis
 {

@@ -4,11 +4,12 @@
 #include <limits>
 #include <optional>
 
+#include "marker_pose.h"
+
 namespace omr
 {
 namespace
 {
-constexpr double TARGET_SIGMA = 0.05;  // [px] of a target's centre
 // How far from its place a marker is looked for, in target radii and squares: half way to where it would be another.
 constexpr double TARGET_REACH = 0.5;
 constexpr double BOARD_REACH = 0.5;
@@ -44,11 +45,24 @@ double pixels(double length, const cv::Affine3d& camera_part, const cv::Point3d&
   return camera.focalLength() * length / (camera_part * point).z;
 }
 
-/** Unknown letters, on either side, agree with all. */
-bool agree(const std::string& seen, const std::string& expected)
+/** What the colours of a target say of the one that the part has in its place. */
+enum class Colors
 {
-  return std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(),
-                    [](char a, char b) { return a == b || a == '?'; });
+  AGREE,       ///< unknown letters agree with all
+  INCOMPLETE,  ///< small rings run together from the middle: PRPG for PGRPG, at 4 px and less a ring
+  CONTRADICT
+};
+
+Colors compare(const std::string& seen, const std::string& expected)
+{
+  const auto agree = [](char a, char b) { return a == b || a == '?'; };
+  if (std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(), agree))
+  {
+    return Colors::AGREE;
+  }
+  const bool outer_agree = seen.size() > 2 && seen.size() < expected.size() &&
+                           std::equal(seen.rbegin(), seen.rend() - 1, expected.rbegin(), agree);
+  return outer_agree ? Colors::INCOMPLETE : Colors::CONTRADICT;
 }
 
 /** The free target nearest to a pixel; -1 if none lies within reach. */
@@ -84,15 +98,15 @@ void findTargets(const Part& part, const cv::Affine3d& camera_part, const SeenMa
     {
       continue;
     }
-    if (!agree(seen.targets[index].colors, target.colors))
+    const Colors colors = compare(seen.targets[index].colors, target.colors);
+    contradictions += colors == Colors::CONTRADICT ? 1 : 0;
+    if (colors == Colors::AGREE)
     {
-      ++contradictions;
-      continue;
+      found.push_back({false,
+                       index,
+                       {{target.center, seen.targets[index].center, TARGET_SIGMA}},
+                       std::max(MIN_FIT, TARGET_FIT * radius)});
     }
-    found.push_back({false,
-                     index,
-                     {{target.center, seen.targets[index].center, TARGET_SIGMA}},
-                     std::max(MIN_FIT, TARGET_FIT * radius)});
   }
 }
 
@@ -206,7 +220,7 @@ PartMatch matchPart(const PartHypothesis& hypothesis, int seed, const SeenMarker
   // A marker that does not fit is left out: it may be another part's, or badly seen.
   for (bool settled = found.empty(); !settled;)
   {
-    match.poses = solvePose(allPairs(hypothesis, found), camera);
+    match.poses = solveMarkers(allPairs(hypothesis, found), camera);
     if (match.poses.empty())
     {
       return match;
@@ -216,10 +230,6 @@ PartMatch matchPart(const PartHypothesis& hypothesis, int seed, const SeenMarker
                                               [&](const Found& marker) { return fits(marker, camera_part, camera); });
     settled = misfit == found.end();
     found.erase(misfit, found.end());
-  }
-  if (match.poses.size() > 1 && !isRival(match.poses[0], match.poses[1]))
-  {
-    match.poses.resize(1);
   }
   match.checkerboards = {seed};
   for (const Found& marker : found)
