@@ -8,7 +8,7 @@
 
 namespace omr
 {
-/** The fields of sensor_msgs/CameraInfo that describe a camera, under their names there. */
+/** The fields of ROS's message CameraInfo that describe a camera, under their names there. */
 struct CameraInfo
 {
   int width = 0;                 ///< [px]

@@ -25,7 +25,7 @@ struct Pose
 
   /**
    * Of x, y, z [m] of the part's origin and of small turns about axes through it parallel to the camera's x, y, z
-   * [rad]: the order of geometry_msgs/PoseWithCovariance. From the Jacobian and the residuals; it knows the noise of
+   * [rad]: the order of ROS's PoseWithCovariance. From the Jacobian and the residuals; it knows the noise of
    * the pixels, not errors of the calibration or of the parts file.
    */
   cv::Matx66d covariance;

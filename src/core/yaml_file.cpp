@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -72,10 +71,15 @@ void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string
     const std::string key = at.text("a key");
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
     {
-      const std::string known =
-          std::accumulate(keys.begin() + 1, keys.end(), keys.front(),
-                          [](const std::string& list, const std::string& next) { return list + ", " + next; });
-      at.fail("there is no key '" + key + "': expected one of " + known);
+      std::string message = "there is no key '";
+      message += key;
+      message += "': expected one of ";
+      for (const std::string& known : keys)
+      {
+        message += known == keys.front() ? "" : ", ";
+        message += known;
+      }
+      at.fail(message);
     }
     if (!found.insert(key).second)
     {
