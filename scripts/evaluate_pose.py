@@ -6,6 +6,7 @@ plate's board with both targets. Tables, one row for a range of distances: posit
 rotation error, how often the true pose lies in the 95 % ellipsoid. Variants:
   exact        the pictures and the calibration as they are
   occluded     30 % of the markers' area painted over, a place of its own in each picture
+  noisy        with noise of 12 grey levels: does the covariance follow?
   focal        the calibration's focal length is 0.1 % too long
   principal    the calibration's principal point is 1 px too far right
   references   with --references: OpenCV's findChessboardCornersSB, told the size, and its solvePnP, board alone
@@ -26,6 +27,7 @@ GOALS = {(0, 1.25): (.1, None, None), (2, 4): (.5, .02, None), (5.2, 100): (1.5,
 CHI_SQUARE_6 = 12.592  # of six degrees of freedom; 95 % stay below
 FLIP = 5  # [degrees]
 OCCLUDED_SHARE = .3
+NOISE = 12  # [grey levels]
 
 
 def read_truth(folder):
@@ -90,14 +92,17 @@ def occlude(image, picture, random):
     return np.clip(image * (1 - alpha) + paint * alpha, 0, 255).astype(np.uint8)
 
 
-def write_occluded(folder, pictures, output):
-    """Occluded copies of all pictures; returns their folder."""
-    copies = os.path.join(output, 'occluded')
+def add_noise(image, _, random):
+    return np.clip(image + random.normal(0, NOISE, image.shape), 0, 255).astype(np.uint8)
+
+
+def write_changed(folder, pictures, copies, change):
+    """Copies of all pictures, each as change(image, picture, random) makes it; returns their folder."""
     os.makedirs(copies, exist_ok=True)
     for number, picture in enumerate(pictures):
         image = cv2.imread(os.path.join(folder, picture['image']))
-        occluded = occlude(image, picture, np.random.default_rng(number))
-        cv2.imwrite(os.path.join(copies, picture['image']), occluded, [cv2.IMWRITE_JPEG_QUALITY, 95])
+        changed = change(image, picture, np.random.default_rng(number))
+        cv2.imwrite(os.path.join(copies, picture['image']), changed, [cv2.IMWRITE_JPEG_QUALITY, 95])
     return copies
 
 
@@ -216,7 +221,9 @@ def main():
         return os.path.join(arguments.output, name)
 
     write_parts(path('parts.yaml'), pictures[0])
-    variants = (('exact', arguments.set, {}), ('occluded', write_occluded(arguments.set, pictures, arguments.output), {}),
+    occluded = write_changed(arguments.set, pictures, path('occluded'), occlude)
+    noisy = write_changed(arguments.set, pictures, path('noisy'), add_noise)
+    variants = (('exact', arguments.set, {}), ('occluded', occluded, {}), ('noisy', noisy, {}),
                 ('focal', arguments.set, {'focal': 1.001}), ('principal', arguments.set, {'principal': 1.}))
     with open(path('report.md'), 'w') as report:
         for name, folder, mistake in variants:
