@@ -10,6 +10,7 @@ rotation error, how often the true pose lies in the 95 % ellipsoid. Variants:
   focal        the calibration's focal length is 0.1 % too long
   principal    the calibration's principal point is 1 px too far right
   references   with --references: OpenCV's findChessboardCornersSB, told the size, and its solvePnP, board alone
+A set of boards on cylinders is evaluated another way: each board's position as a flat and as a bent one.
 Leaves OUTPUT/report.md and what omr_position said, VARIANT.jsonl.
 """
 import argparse
@@ -21,6 +22,9 @@ import sys
 import cv2
 import numpy as np
 
+import evaluate_curved
+from pose_truth import error_of, matrix_of, pose_of, read_truth, write_camera
+
 RANGES = ((0, 1.25), (1.25, 2), (2, 4), (4, 5.2), (5.2, 100))  # [m]
 # 95th percentile of a part's error [mm], along and across the ray, and of its rotation [degrees] that are aimed at.
 GOALS = {(0, 1.25): (.1, None, None), (2, 4): (.5, .02, None), (5.2, 100): (1.5, None, .1)}
@@ -30,25 +34,10 @@ OCCLUDED_SHARE = .3
 NOISE = 12  # [grey levels]
 
 
-def read_truth(folder):
-    with open(os.path.join(folder, 'truth.json')) as file:
-        pictures = json.load(file)['images']
-    for picture in pictures:
-        if len(picture['checkerboards']) != 1 or picture['checkerboards'][0]['surface'] != 'plane':
-            sys.exit('evaluate_pose: %s: expected one flat board a picture' % picture['image'])
-    return pictures
-
-
-def board_pose(picture):
-    """R (3 x 3) and t [m] of the board, which is the part's frame, in the camera's."""
-    pose = picture['checkerboards'][0]['pose']
-    return np.array(pose['R']), np.array(pose['t'])
-
-
 def write_parts(path, picture):
     """The parts file of the plate, measured in its first picture."""
     board = picture['checkerboards'][0]
-    rotation, translation = board_pose(picture)
+    rotation, translation = pose_of(board)
     with open(path, 'w') as file:
         file.write('parts:\n- name: plate\n  checkerboards:\n  - {rows: %d, cols: %d, square: %g}\n  targets:\n'
                    % (board['rows'], board['cols'], board['square_m']))
@@ -56,19 +45,6 @@ def write_parts(path, picture):
             center = rotation.T @ (np.array(target['pose']['t']) - translation)
             file.write('  - {colors: %s, ring: %g, xyz: [%.6f, %.6f, %.6f]}\n'
                        % (target['code'], target['ring_m'], *center))
-
-
-def write_camera(path, picture, focal=1., principal=0.):
-    """The camera_info file of a camera, with an error if one is given: a factor and pixels."""
-    matrix = np.array(picture['camera_matrix'])
-    matrix[0, 0] *= focal
-    matrix[1, 1] *= focal
-    matrix[0, 2] += principal
-    with open(path, 'w') as file:
-        file.write('image_width: %d\nimage_height: %d\ncamera_name: camera\n' % (picture['width'], picture['height']))
-        file.write('camera_matrix: {rows: 3, cols: 3, data: %s}\n' % matrix.ravel().tolist())
-        file.write('distortion_model: plumb_bob\n')
-        file.write('distortion_coefficients: {rows: 1, cols: 5, data: %s}\n' % picture['distortion'])
 
 
 def occlude(image, picture, random):
@@ -106,26 +82,6 @@ def write_changed(folder, pictures, copies, change):
     return copies
 
 
-def matrix_of(quaternion):
-    vector = np.array(quaternion[:3])
-    length = np.linalg.norm(vector)
-    angle = 2 * np.arctan2(length, quaternion[3])
-    return cv2.Rodrigues(vector * (angle / length if length else 0))[0]
-
-
-def error_of(picture, rotation, translation, covariance=None):
-    """Distance [m]; errors along and across the ray [mm] and of the rotation [degrees]; squared error by covariance."""
-    true_rotation, true_translation = board_pose(picture)
-    shift = translation - true_translation
-    ray = true_translation / np.linalg.norm(true_translation)
-    along = shift @ ray
-    turn = cv2.Rodrigues(rotation @ true_rotation.T)[0].ravel()
-    error = np.concatenate([shift, turn])
-    chi_square = np.nan if covariance is None else error @ np.linalg.solve(covariance, error)
-    return (true_translation[2], abs(along) * 1e3, np.linalg.norm(shift - along * ray) * 1e3,
-            np.degrees(np.linalg.norm(turn)), chi_square)
-
-
 def locate(folder, pictures, camera, parts, jsonl):
     """Runs omr_position; returns one error of the certain poses and how many pictures are ambiguous."""
     images = [os.path.join(folder, picture['image']) for picture in pictures]
@@ -139,8 +95,9 @@ def locate(folder, pictures, camera, parts, jsonl):
             ambiguous += bool(answer['ambiguous'])
             for part in answer['parts']:
                 covariance = np.array(part['covariance']).reshape(6, 6)
-                errors.append(error_of(picture, matrix_of(part['orientation']), np.array(part['position']), covariance))
-    return np.array(errors), ambiguous
+                errors.append(error_of(picture['checkerboards'][0], matrix_of(part['orientation']),
+                                       np.array(part['position']), covariance))
+    return np.array(errors).reshape(-1, 5), ambiguous
 
 
 def reference(folder, pictures):
@@ -161,7 +118,7 @@ def reference(folder, pictures):
         for order in (corners, corners[::-1]):
             _, turn, shift = cv2.solvePnP(points, order, *camera, flags=cv2.SOLVEPNP_IPPE)
             turn, shift = cv2.solvePnPRefineLM(points, order, *camera, turn, shift)
-            candidates.append(error_of(picture, cv2.Rodrigues(turn)[0], shift.ravel()))
+            candidates.append(error_of(board, cv2.Rodrigues(turn)[0], shift.ravel()))
         errors.append(min(candidates, key=lambda error: error[3]))
     return np.array(errors)
 
@@ -174,9 +131,11 @@ def table(title, errors, count, ambiguous=0):
     """A variant's table in Markdown."""
     flips = int((errors[:, 3] > FLIP).sum())
     lines = ['## %s' % title, '',
-             '%d pictures: %d located, %d ambiguous, %d flips' % (count, len(errors), ambiguous, flips), '',
-             '| distance [m] | pictures | along, median [mm] | 95 % | RMS | across, median [mm] | 95 % '
-             '| rotation, median [degrees] | 95 % | true pose in the 95 % ellipsoid |', '|' + '---|' * 10]
+             '%d pictures: %d located, %d ambiguous, %d flips' % (count, len(errors), ambiguous, flips)]
+    if not len(errors):
+        return '\n'.join(lines) + '\n\n'
+    lines += ['', '| distance [m] | pictures | along, median [mm] | 95 % | RMS | across, median [mm] | 95 % '
+              '| rotation, median [degrees] | 95 % | true pose in the 95 % ellipsoid |', '|' + '---|' * 10]
     for low, high in RANGES:
         some = errors[(errors[:, 0] >= low) & (errors[:, 0] < high)]
         if not len(some):
@@ -216,6 +175,12 @@ def main():
         sys.exit('evaluate_pose: %s holds no truth.json' % arguments.set)
     pictures = read_truth(arguments.set)
     os.makedirs(arguments.output, exist_ok=True)
+    boards = [board for picture in pictures for board in picture['checkerboards']]
+    if all(board['surface'] == 'cylinder' for board in boards):
+        evaluate_curved.evaluate(arguments.set, pictures, arguments.output)
+        return
+    if len(boards) != len(pictures) or any(board['surface'] != 'plane' for board in boards):
+        sys.exit('evaluate_pose: expected one flat board a picture, or boards on cylinders')
 
     def path(name):
         return os.path.join(arguments.output, name)
@@ -228,7 +193,8 @@ def main():
     with open(path('report.md'), 'w') as report:
         for name, folder, mistake in variants:
             write_camera(path(name + '.yaml'), pictures[0], **mistake)
-            errors, ambiguous = locate(folder, pictures, path(name + '.yaml'), path('parts.yaml'), path(name + '.jsonl'))
+            errors, ambiguous = locate(folder, pictures, path(name + '.yaml'), path('parts.yaml'),
+                                       path(name + '.jsonl'))
             text = table(name, errors, len(pictures), ambiguous) + (goals(errors) if name == 'exact' else '')
             print(text, flush=True)
             report.write(text)

@@ -126,6 +126,42 @@ class OmrPosition(unittest.TestCase):
         self.assert_fails('the camera is not calibrated: K[0] = 0', self.run_tool(image, camera=raw))
         self.assert_fails("cannot write '/nonexistent/out'", self.run_tool('--json', '/nonexistent/out', image))
 
+    def test_evaluate_pose(self):
+        os.mkdir(os.path.join(self.folder, 'set'))
+        pictures = []
+        for number, distance in enumerate((.6, .7)):
+            name, shift = '%d.jpg' % number, np.array([0, 0, distance])
+            pose = {'R': self.turn.tolist(), 't': shift.tolist()}
+            self.write('set/' + name, plate.picture(plate.paper(7, 9, .02, TARGETS), self.turn, shift))
+
+            def outline(corners):
+                points = np.array([[x, y, 0.] for x, y in corners])
+                return cv2.projectPoints(points, cv2.Rodrigues(self.turn)[0], shift, plate.CAMERA,
+                                         None)[0].reshape(-1, 2).tolist()
+            pictures.append({
+                'image': name, 'width': plate.WIDTH, 'height': plate.HEIGHT,
+                'camera_matrix': plate.CAMERA.tolist(), 'distortion': [0] * 5,
+                'checkerboards': [{'rows': 7, 'cols': 9, 'square_m': .02, 'surface': 'plane', 'pose': pose,
+                                   'outline': outline([(-.09, -.07), (.09, -.07), (.09, .07), (-.09, .07)])}],
+                'targets': [{'code': code, 'ring_m': ring, 'outline': outline([(x - .05, y - .05), (x + .05, y + .05)]),
+                             'pose': {'t': (self.turn @ [x, y, 0] + shift).tolist()}} for code, ring, x, y in TARGETS]})
+        self.write('set/truth.json', json.dumps({'images': pictures}))
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'scripts', 'evaluate_pose.py')
+        output = os.path.join(self.folder, 'output')
+        environment = dict(os.environ, PATH=os.path.dirname(OMR_POSITION) + os.pathsep + os.environ['PATH'])
+        result = subprocess.run([sys.executable, script, os.path.join(self.folder, 'set'), '--output', output],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                                env=environment, timeout=120)
+        self.assertEqual((0, ''), (result.returncode, result.stderr))
+        with open(os.path.join(output, 'report.md')) as file:
+            report = file.read()
+        self.assertIn('2 pictures: 2 located, 0 ambiguous, 0 flips', report)
+        self.assertEqual(5, report.count('## ') - report.count('## Goals'))
+        refused = subprocess.run([sys.executable, script, self.folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                 universal_newlines=True)
+        self.assertEqual(1, refused.returncode)
+        self.assertIn('holds no truth.json', refused.stderr)
+
     def test_wrong_arguments(self):
         for arguments in ([], ['--camera', 'a', 'b.png'], ['--camera', 'a', '--parts', 'b']):
             result = subprocess.run([OMR_POSITION, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "marker_pose.h"
 
@@ -48,21 +49,33 @@ double pixels(double length, const cv::Affine3d& camera_part, const cv::Point3d&
 /** What the colours of a target say of the one that the part has in its place. */
 enum class Colors
 {
-  AGREE,       ///< unknown letters agree with all
-  INCOMPLETE,  ///< small rings run together from the middle: PRPG for PGRPG, at 4 px and less a ring
+  AGREE,    ///< unknown letters agree with all
+  UNCLEAR,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG half hidden
   CONTRADICT
 };
 
-Colors compare(const std::string& seen, const std::string& expected)
+bool agree(std::string_view seen, std::string_view expected)
 {
-  const auto agree = [](char a, char b) { return a == b || a == '?'; };
-  if (std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(), agree))
+  return std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(),
+                    [](char a, char b) { return a == b || a == '?'; });
+}
+
+Colors compare(std::string_view seen, std::string_view expected)
+{
+  if (agree(seen, expected))
   {
     return Colors::AGREE;
   }
+  if (seen.size() > expected.size())
+  {
+    const bool is_inner = agree(seen.substr(0, expected.size()), expected);
+    const bool is_outer = agree(seen.substr(seen.size() - expected.size()), expected);
+    return is_inner || is_outer ? Colors::UNCLEAR : Colors::CONTRADICT;
+  }
+  // Of rings that run together the innermost letter is a mixture.
   const bool outer_agree = seen.size() > 2 && seen.size() < expected.size() &&
-                           std::equal(seen.rbegin(), seen.rend() - 1, expected.rbegin(), agree);
-  return outer_agree ? Colors::INCOMPLETE : Colors::CONTRADICT;
+                           agree(seen.substr(1), expected.substr(expected.size() - seen.size() + 1));
+  return outer_agree ? Colors::UNCLEAR : Colors::CONTRADICT;
 }
 
 /** The free target nearest to a pixel; -1 if none lies within reach. */
