@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -37,6 +38,7 @@ struct Options
   std::string device = "auto";
   std::vector<std::string> files;
   std::vector<int> squares = {5, 7};
+  int threads = 0;
 };
 
 std::string nameOf(const cv::Size& size)
@@ -85,6 +87,7 @@ void addSteps(const Picture& picture, const OurSteps& ours)
   registerRace(picture, ours.labels(edgesOfImage, FillMethod::runs), omr::componentsPeer(edgesOfImage));
   registerRace(picture, ours.labelsAndRegionData(edgesOfImage, FillMethod::runs),
                omr::componentsWithStatsPeer(edgesOfImage));
+  registerRace(picture, ours.pipeline(settingsOf(Filter::gaussian)), omr::chainPeer(edgesOfImage));
   registerRace(picture, ours.pipeline(settingsOf(Filter::gaussian), true), omr::memcpyPeer());
   for (const Filter filter : FILTERS)
   {
@@ -156,6 +159,7 @@ void cameras(benchmark::State& state, const std::string& device, const cv::Size&
   const cv::Mat scene = omr::drawScene(size);
   const int count = static_cast<int>(state.range(0));
   std::vector<omr::Detector> detectors;
+  detectors.reserve(count);
   std::vector<omr::Samples> times(count);
   for (int i = 0; i < count; ++i)
   {
@@ -167,6 +171,7 @@ void cameras(benchmark::State& state, const std::string& device, const cv::Size&
   {
     rounds.add([&] {
       std::vector<std::thread> threads;
+      threads.reserve(count);
       for (int i = 0; i < count; ++i)
       {
         threads.emplace_back([&, i] {
@@ -209,7 +214,7 @@ void addCameras(const std::string& device)
 
 cv::Mat readImage(const std::string& file)
 {
-  const cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
+  cv::Mat bgr = cv::imread(file, cv::IMREAD_COLOR);
   if (bgr.empty())
   {
     throw std::runtime_error("cannot read the image " + file);
@@ -247,11 +252,17 @@ int run(int argc, char** argv)
   CLI::App app{"Times the fill pipeline, the detector and what others offer for the same job."};
   Options options;
   app.add_option("--device", options.device, "OpenCL device: auto, gpu, cpu or a part of its name");
+  app.add_option("--threads", options.threads, "Threads of OpenCV and of PoCL's CPU device (default: all cores)");
   app.add_option("--squares", options.squares, "Columns and rows of the boards in the image files, for the peers")
       ->expected(2)
       ->capture_default_str();
   app.add_option("images", options.files, "Image files, each of them scaled to all sizes");
   CLI11_PARSE(app, argc, argv);
+  if (options.threads > 0)
+  {
+    cv::setNumThreads(options.threads);
+    setenv("POCL_MAX_PTHREAD_COUNT", std::to_string(options.threads).c_str(), 1);
+  }
   const OurSteps ours(options.device);
   std::cerr << "device: " << ours.deviceName() << "\n";
   addPictures(ours, options);

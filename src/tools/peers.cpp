@@ -102,6 +102,18 @@ Contestant componentsWithStatsPeer(const EdgesOf& edges_of)
           }};
 }
 
+Contestant chainPeer(const EdgesOf& edges_of)
+{
+  return {"OpenCV's chain", [edges_of](const cv::Mat& image) {
+            return [=, blur = gaussianPeer(3).prepare(image), sobel = sobelPeer().prepare(image),
+                    components = componentsWithStatsPeer(edges_of).prepare(image)] {
+              blur();
+              sobel();
+              components();
+            };
+          }};
+}
+
 Contestant memcpyPeer()
 {
   return {"memcpy", [](const cv::Mat& image) {

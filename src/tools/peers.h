@@ -26,6 +26,9 @@ Contestant componentsPeer(const EdgesOf& edges_of);
 /** cv::connectedComponentsWithStats, 4-way: area, box and centre. */
 Contestant componentsWithStatsPeer(const EdgesOf& edges_of);
 
+/** Gaussian 3x3, Sobel twice and connectedComponentsWithStats: the pipeline but for what makes edges of the Sobels. */
+Contestant chainPeer(const EdgesOf& edges_of);
+
 /** memcpy of the image: the physical limit of whatever reads it. */
 Contestant memcpyPeer();
 

@@ -42,6 +42,7 @@ double quantile(std::vector<double> values, double share);
  * ms, peer_ms          medians, wall clock
  * cpu_ms, peer_cpu_ms  medians, CPU time of all threads
  * p99_ms               of ours, wall clock
+ * calm_cpu_ms, peer_calm_cpu_ms  lowest deciles of the CPU times: what the rest of the machine disturbed least
  * ratio, cpu_ratio     median over the rounds of ours / peer
  */
 void registerRace(const Picture& picture, const Contestant& ours, const Contestant& peer);
