@@ -128,7 +128,7 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   };
   for (const RingSeed& seed : findRoundSeeds(regions.regions))
   {
-    if (!is_taken(seed.family.center) && hasOwnBoundary(map, seed))
+    if (!is_taken(seed.family.center) && hasOwnBoundary(map, frame.bgr, seed))
     {
       try_seed(seed, true);
     }
