@@ -81,6 +81,20 @@ TEST(FillMemory, anImageLikeTheLastAllocatesNextToNothing)
   EXPECT_EQ(bytes, pipeline.bufferBytes());
 }
 
+TEST(FillMemory, theBuffersFollowTheFormula)
+{
+  for (const cv::Size& size : {cv::Size(640, 480), cv::Size(1920, 1080), cv::Size(3840, 2160)})
+  {
+    FillPipeline pipeline;
+    RegionMap map;
+    pipeline.run(omr::drawScene(size), Settings(), FillPipeline::Outputs(), map);
+    const double formula = 13.2 * size.area() + 10e6;  // docs/performance.md
+    const auto bytes = static_cast<double>(pipeline.bufferBytes());
+    EXPECT_LT(bytes, formula) << size;
+    EXPECT_GT(bytes, 0.9 * formula - 1e6) << size << ": the formula says too much";
+  }
+}
+
 TEST(FillMemory, growthIsBoundedAndGivenBack)
 {
   const cv::Size size(1920, 1080);
