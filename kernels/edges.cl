@@ -1,10 +1,14 @@
 // Colour Sobel edges (paper, section 3.1): the largest |gx| + |gy| of B, G and R above the threshold makes an edge
-// pixel; borders replicated. The result is the region mask of mask.cl.
+// pixel; borders replicated. The result is the region mask of mask.cl. The threshold is the paper's fixed one, or, tile
+// by tile, a share of the strongest response around.
 
 #include "mask.cl"
 
-/** Rows that a work-item of edgesStrip slides down: each row is read once, not three times. */
+/** Rows of a tile, which is 64 pixels wide. A work-item slides down a tile: each row is read once, not three times. */
 #define EDGE_ROWS 16
+
+/** The adaptive threshold in percent of the strongest response in 3 x 3 tiles. */
+#define ADAPTIVE_PERCENT 45
 
 /** Bytes that edgesStrip takes at a time, and how many of these pieces are 16 and 64 pixels. */
 #define EDGE_PIECE 16
@@ -61,6 +65,79 @@ INLINE short16 larger(short16 a, short16 b)
   return a > b ? a : b;
 }
 
+/** Half of |gx| + |gy| of 16 bytes. */
+INLINE short16 halfResponse(RowSums above, RowSums row, RowSums below)
+{
+  const short16 falling = row.difference + below.ahead - above.behind;
+  const short16 rising = row.difference + above.ahead - below.behind;
+  return larger(larger(falling, -falling), larger(rising, -rising));
+}
+
+/**
+ * The threshold of a tile: fixed, or, where a floor below it is given, between the two.
+ *
+ * @param strength strongest response of every tile.
+ */
+INLINE int tileThreshold(global const int* strength, int tiles_across, int tiles_down, int i, int j, int floor,
+                         int threshold)
+{
+  if (floor >= threshold)
+  {
+    return threshold;
+  }
+  int strongest = 0;
+  for (int y = max(i - 1, 0); y <= min(i + 1, tiles_down - 1); ++y)
+  {
+    for (int x = max(j - 1, 0); x <= min(j + 1, tiles_across - 1); ++x)
+    {
+      strongest = max(strongest, strength[y * tiles_across + x]);
+    }
+  }
+  return clamp(strongest * ADAPTIVE_PERCENT / 100, floor, threshold);
+}
+
+/** Slides down 16 bytes of the rows top .. bottom - 1. @return half the strongest response of each. */
+INLINE short16 strongestOf(global const uchar* image, long step, int width, int height, int first, int top, int bottom,
+                           bool inner)
+{
+  const int bytes = 3 * width;
+  RowSums above = rowSums(image + max(top - 1, 0) * step, first, bytes, inner);
+  RowSums row = rowSums(image + top * step, first, bytes, inner);
+  short16 strongest = 0;
+  for (int y = top; y < bottom; ++y)
+  {
+    const RowSums below = rowSums(image + min(y + 1, height - 1) * step, first, bytes, inner);
+    strongest = larger(strongest, halfResponse(above, row, below));
+    above = row;
+    row = below;
+  }
+  return strongest;
+}
+
+/** CPU: one group = one tile; group (j, i). */
+kernel GROUP void strengthStrip(global const uchar* restrict image, long step, int width, int height,
+                                global int* restrict strength)
+{
+  const int j = get_group_id(0);
+  const int top = (int)get_group_id(1) * EDGE_ROWS;
+  const int bottom = min(height, top + EDGE_ROWS);
+  const int end = 3 * min(width, 64 * (j + 1));
+  short halves[EDGE_PIECE];
+  int strongest = 0;
+  for (int first = 192 * j; first < end; first += EDGE_PIECE)
+  {
+    const bool inner = first >= 3 && first + EDGE_PIECE + 3 <= 3 * width;
+    vstore16(inner ? strongestOf(image, step, width, height, first, top, bottom, true)
+                   : strongestOf(image, step, width, height, first, top, bottom, false),
+             0, halves);
+    for (int k = 0; k < min(EDGE_PIECE, end - first); ++k)
+    {
+      strongest = max(strongest, 2 * halves[k]);
+    }
+  }
+  strength[get_group_id(1) * get_num_groups(0) + j] = strongest;
+}
+
 /** Slides down 16 bytes of the rows top .. bottom - 1; edge receives -1 where half the response exceeds the limit. */
 INLINE void edgePieces(global const uchar* image, long step, int width, int height, int first, int top, int bottom,
                        short16 limit, bool inner, ulong2 edge[EDGE_ROWS][PIECES_OF_WORD], int piece)
@@ -71,10 +148,7 @@ INLINE void edgePieces(global const uchar* image, long step, int width, int heig
   for (int y = top; y < bottom; ++y)
   {
     const RowSums below = rowSums(image + min(y + 1, height - 1) * step, first, bytes, inner);
-    const short16 falling = row.difference + below.ahead - above.behind;
-    const short16 rising = row.difference + above.ahead - below.behind;
-    const short16 response = larger(larger(falling, -falling), larger(rising, -rising));
-    edge[y - top][piece] = as_ulong2(convert_char16(response > limit));
+    edge[y - top][piece] = as_ulong2(convert_char16(halfResponse(above, row, below) > limit));
     above = row;
     row = below;
   }
@@ -97,15 +171,17 @@ INLINE ulong regionBits(ulong2 p, ulong2 q, ulong2 r)
   return ((region.x * gather) >> 56) | (((region.y * gather) >> 56) << 8);
 }
 
-/** CPU: one group = 64 pixels x EDGE_ROWS rows; group (w, block of rows). */
-kernel GROUP void edgesStrip(global const uchar* restrict image, long step, int width, int height, int threshold,
-                             global ulong* restrict mask)
+/** CPU: one group = one tile; group (w, i). */
+kernel GROUP void edgesStrip(global const uchar* restrict image, long step, int width, int height,
+                             global const int* restrict strength, int floor, int threshold, global ulong* restrict mask)
 {
   const int w = get_group_id(0);
   const int top = (int)get_group_id(1) * EDGE_ROWS;
   const int bottom = min(height, top + EDGE_ROWS);
   const int sixteens = (min(64, width - 64 * w) + 15) / 16;
-  const short16 limit = (short16)(short)(threshold / 2);
+  const int tile_threshold =
+      tileThreshold(strength, get_num_groups(0), get_num_groups(1), get_group_id(1), w, floor, threshold);
+  const short16 limit = (short16)(short)(tile_threshold / 2);
   ulong2 edge[EDGE_ROWS][PIECES_OF_WORD];
   for (int piece = 0; piece < PIECES_OF_16 * sixteens; ++piece)
   {
@@ -132,9 +208,53 @@ kernel GROUP void edgesStrip(global const uchar* restrict image, long step, int 
   }
 }
 
+/** The largest |gx| + |gy| of B, G and R of a pixel. */
+INLINE int responseAt(global const uchar* image, long step, int width, int height, int x, int y)
+{
+  global const uchar* above = image + max(y - 1, 0) * step;
+  global const uchar* row = image + y * step;
+  global const uchar* below = image + min(y + 1, height - 1) * step;
+  const int l = 3 * max(x - 1, 0);
+  const int c = 3 * x;
+  const int r = 3 * min(x + 1, width - 1);
+  int strongest = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const int gx = above[r + k] + 2 * row[r + k] + below[r + k] - above[l + k] - 2 * row[l + k] - below[l + k];
+    const int gy = below[l + k] + 2 * below[c + k] + below[r + k] - above[l + k] - 2 * above[c + k] - above[r + k];
+    strongest = max(strongest, (int)(abs(gx) + abs(gy)));
+  }
+  return strongest;
+}
+
+/** GPU: one group = one tile; group (j, i). */
+kernel GROUP void strengthTile(global const uchar* restrict image, long step, int width, int height,
+                               global int* restrict strength)
+{
+  local int strongest;
+  const int left = 64 * (int)get_group_id(0);
+  const int top = EDGE_ROWS * (int)get_group_id(1);
+  const int across = min(64, width - left);
+  const int pixels = across * min(EDGE_ROWS, height - top);
+  if (get_local_id(0) == 0)
+  {
+    strongest = 0;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (int i = get_local_id(0); i < pixels; i += LANES)
+  {
+    atomic_max(&strongest, responseAt(image, step, width, height, left + i % across, top + i / across));
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (get_local_id(0) == 0)
+  {
+    strength[get_group_id(1) * get_num_groups(0) + get_group_id(0)] = strongest;
+  }
+}
+
 /** GPU: one group = one word of one row; group (w, y). */
-kernel GROUP void edgesWord(global const uchar* restrict image, long step, int width, int height, int threshold,
-                            global ulong* restrict mask)
+kernel GROUP void edgesWord(global const uchar* restrict image, long step, int width, int height,
+                            global const int* restrict strength, int floor, int threshold, global ulong* restrict mask)
 {
   local uint halves[2];
   const int w = get_group_id(0);
@@ -144,23 +264,11 @@ kernel GROUP void edgesWord(global const uchar* restrict image, long step, int w
     halves[0] = halves[1] = 0;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
-  global const uchar* above = image + max(y - 1, 0) * step;
-  global const uchar* row = image + y * step;
-  global const uchar* below = image + min(y + 1, height - 1) * step;
+  const int tiles_down = (height + EDGE_ROWS - 1) / EDGE_ROWS;
+  const int tile_threshold = tileThreshold(strength, get_num_groups(0), tiles_down, y / EDGE_ROWS, w, floor, threshold);
   for (int bit = get_local_id(0); bit < min(64, width - 64 * w); bit += LANES)
   {
-    const int x = 64 * w + bit;
-    const int l = 3 * max(x - 1, 0);
-    const int c = 3 * x;
-    const int r = 3 * min(x + 1, width - 1);
-    int strongest = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const int gx = above[r + k] + 2 * row[r + k] + below[r + k] - above[l + k] - 2 * row[l + k] - below[l + k];
-      const int gy = below[l + k] + 2 * below[c + k] + below[r + k] - above[l + k] - 2 * above[c + k] - above[r + k];
-      strongest = max(strongest, (int)(abs(gx) + abs(gy)));
-    }
-    if (strongest <= threshold)
+    if (responseAt(image, step, width, height, 64 * w + bit, y) <= tile_threshold)
     {
       atomic_or(&halves[bit >> 5], 1u << (bit & 31));
     }

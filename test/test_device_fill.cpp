@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "compare.h"
 #include "device_fill.h"
@@ -102,7 +103,7 @@ class DeviceFillTest : public testing::TestWithParam<Geometry>
   }
 
   /** Everything of an image, by runs. */
-  void checkImage(const cv::Mat& image, Filter filter, int size, int threshold)
+  void checkImage(const cv::Mat& image, Filter filter, int size, const omr::EdgeThreshold& threshold)
   {
     const cv::Mat filtered = omr::filterImage(image, filter, size);
     const cv::Mat expected_edges = omr::edgeMask(filtered, threshold);
@@ -135,11 +136,11 @@ INSTANTIATE_TEST_SUITE_P(Geometries, DeviceFillTest, testing::Values(Geometry::s
 TEST_P(DeviceFillTest, everyFilterOnAScene)
 {
   const cv::Mat scene = omr::drawScene({640, 480});
-  checkImage(scene, Filter::none, 3, 100);
+  checkImage(scene, Filter::none, 3, {100});
   for (const int size : {3, 5})
   {
-    checkImage(scene, Filter::gaussian, size, 100);
-    checkImage(scene, Filter::median, size, 60);
+    checkImage(scene, Filter::gaussian, size, {100});
+    checkImage(scene, Filter::median, size, {60});
   }
 }
 
@@ -151,20 +152,33 @@ TEST_P(DeviceFillTest, everyFilterOnOddSizes)
   {
     SCOPED_TRACE(testing::Message() << size.width << " x " << size.height);
     const cv::Mat image = noiseImage(size);
-    checkImage(image, Filter::none, 3, 700);
-    checkImage(image, Filter::gaussian, 3, 200);
-    checkImage(image, Filter::gaussian, 5, 100);
-    checkImage(image, Filter::median, 3, 250);
-    checkImage(image, Filter::median, 5, 120);
+    checkImage(image, Filter::none, 3, {700});
+    checkImage(image, Filter::gaussian, 3, {200});
+    checkImage(image, Filter::gaussian, 5, {100});
+    checkImage(image, Filter::median, 3, {250});
+    checkImage(image, Filter::median, 5, {120});
   }
 }
 
 TEST_P(DeviceFillTest, extremeThresholds)
 {
   const cv::Mat image = noiseImage({150, 70});
-  checkImage(image, Filter::none, 3, 1);
-  checkImage(image, Filter::none, 3, 2039);
-  checkImage(image, Filter::none, 3, 2040);
+  checkImage(image, Filter::none, 3, {1});
+  checkImage(image, Filter::none, 3, {2039});
+  checkImage(image, Filter::none, 3, {2040});
+}
+
+TEST_P(DeviceFillTest, adaptiveThreshold)
+{
+  for (const cv::Size& size : {cv::Size(640, 480), cv::Size(65, 17), cv::Size(63, 33), cv::Size(1, 1)})
+  {
+    cv::Mat scene;
+    cv::resize(omr::drawScene({640, 480}), scene, size);
+    scene.colRange(size.width / 2, size.width) *= .15;  // deep shadow on the right
+    checkImage(scene, Filter::none, 3, {100, 20});
+    checkImage(scene, Filter::gaussian, 3, {2040, 1});
+    checkImage(noiseImage(size) / 16, Filter::none, 3, {60, 10});
+  }
 }
 
 TEST_P(DeviceFillTest, regionOfInterestEndsAtItsBorder)
@@ -174,7 +188,7 @@ TEST_P(DeviceFillTest, regionOfInterestEndsAtItsBorder)
   ASSERT_FALSE(part.isContinuous());
   for (const Filter filter : {Filter::none, Filter::gaussian, Filter::median})
   {
-    checkImage(part, filter, 5, 80);
+    checkImage(part, filter, 5, {80});
   }
 }
 
@@ -193,11 +207,11 @@ TEST_P(DeviceFillTest, readsNothingOutsideTheImage)
   {
     cv::Mat image(size, CV_8UC3, data);
     noiseImage(size).copyTo(image);
-    checkImage(image, Filter::none, 3, 400);
+    checkImage(image, Filter::none, 3, {400});
     for (const int window : {3, 5})
     {
-      checkImage(image, Filter::gaussian, window, 100);
-      checkImage(image, Filter::median, window, 100);
+      checkImage(image, Filter::gaussian, window, {100});
+      checkImage(image, Filter::median, window, {100});
     }
   }
   munmap(memory, (pages + 2) * page);
@@ -228,7 +242,7 @@ TEST_P(DeviceFillTest, edgePatternsOfChangingSize)
 TEST_P(DeviceFillTest, runsAndChannelSumsOfAVeryWideImage)
 {
   const cv::Mat white(3, 65535, CV_8UC3, cv::Scalar(255, 254, 253));
-  checkImage(white, Filter::none, 3, 100);
+  checkImage(white, Filter::none, 3, {100});
 }
 
 TEST_P(DeviceFillTest, moreRegionsThanTheBuffersHold)
@@ -242,7 +256,7 @@ TEST_P(DeviceFillTest, moreRegionsThanTheBuffersHold)
     }
   }
   checkEdges(edges);
-  checkImage(omr::drawScene({320, 200}), Filter::gaussian, 3, 100);
+  checkImage(omr::drawScene({320, 200}), Filter::gaussian, 3, {100});
 }
 
 TEST_P(DeviceFillTest, sweepThatDoesNotSettleLeavesTheLabelsToTheRuns)

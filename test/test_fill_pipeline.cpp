@@ -113,7 +113,7 @@ TEST(FillPipeline, keepsOutputsThatAPreviousImageLeftInAnotherShape)
   const cv::Mat image = noiseImage({90, 70});
   pipeline.run(image, Settings(), both, map);
   const cv::Mat filtered = omr::filterImage(image, Settings().filter, Settings().filter_size);
-  EXPECT_TRUE(equal(omr::labelRegions(omr::edgeMask(filtered, Settings().sobel_threshold)), map.labels));
+  EXPECT_TRUE(equal(omr::labelRegions(omr::edgeMask(filtered, omr::edgeThreshold(Settings()))), map.labels));
   EXPECT_EQ(0, cv::norm(larger, cv::Mat(300, 300, CV_32SC1, cv::Scalar(7)), cv::NORM_INF));
 }
 

@@ -214,7 +214,7 @@ TEST(Overlay, paintsEveryRegionTheFirstBlueEdgesYellow)
   cv::rectangle(image, {50, 30, 20, 20}, {0, 0, 255}, cv::FILLED);
   RegionMap regions;
   regions.size = image.size();
-  regions.edges = omr::edgeMask(image, 100);
+  regions.edges = omr::edgeMask(image, {100});
   regions.labels = omr::labelRegions(regions.edges);
   const cv::Mat picture = omr::drawOverlay(image, {}, regions);
   const auto& first_square = picture.at<cv::Vec3b>(20, 20);

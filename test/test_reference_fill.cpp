@@ -96,7 +96,7 @@ TEST(ReferenceFill, edgesAgreeWithBruteForceAlsoInARegionOfInterest)
 {
   const cv::Mat whole = noiseImage({40, 30});
   const cv::Mat image = whole(cv::Rect(5, 7, 21, 13));
-  const cv::Mat edges = omr::edgeMask(image, 600);
+  const cv::Mat edges = omr::edgeMask(image, {600});
   for (int y = 0; y < image.rows; ++y)
   {
     for (int x = 0; x < image.cols; ++x)
@@ -109,6 +109,25 @@ TEST(ReferenceFill, edgesAgreeWithBruteForceAlsoInARegionOfInterest)
       ASSERT_EQ(strongest > 600 ? 255 : 0, edges.at<uchar>(y, x));
     }
   }
+}
+
+TEST(ReferenceFill, adaptiveThresholdIsLowerWhereAllIsFaint)
+{
+  // Steps of 100 grey levels on the left, of 10 far right: responses of 400 and 40.
+  cv::Mat image(64, 640, CV_8UC3, cv::Scalar::all(20));
+  image.colRange(10, 20) = cv::Scalar::all(120);
+  image.colRange(30, 40) = cv::Scalar::all(30);
+  image.colRange(600, 610) = cv::Scalar::all(30);
+  const auto edges_at = [&](const omr::EdgeThreshold& threshold, int x) {
+    return static_cast<int>(omr::edgeMask(image, threshold).at<uchar>(32, x));
+  };
+  EXPECT_EQ(255, edges_at({100}, 10));
+  EXPECT_EQ(0, edges_at({100}, 600));
+  EXPECT_EQ(255, edges_at({100, 20}, 10));
+  EXPECT_EQ(0, edges_at({100, 20}, 30)) << "beside a strong edge";
+  EXPECT_EQ(255, edges_at({100, 20}, 600));
+  EXPECT_EQ(0, edges_at({100, 40}, 600)) << "at the floor";
+  EXPECT_EQ(255, edges_at({100, 39}, 600));
 }
 
 TEST(ReferenceFill, labelsAreTheComponentsOfOpenCVNamedByTheirFirstPixel)
@@ -184,7 +203,7 @@ TEST(ReferenceFill, refusesWrongInput)
   EXPECT_THROW(omr::filterImage(cv::Mat(), Filter::none, 3), std::invalid_argument);
   EXPECT_THROW(omr::filterImage(edges, Filter::none, 3), std::invalid_argument);
   EXPECT_THROW(omr::filterImage(image, Filter::gaussian, 4), std::invalid_argument);
-  EXPECT_THROW(omr::edgeMask(edges, 10), std::invalid_argument);
+  EXPECT_THROW(omr::edgeMask(edges, {10}), std::invalid_argument);
   EXPECT_THROW(omr::labelRegions(image), std::invalid_argument);
   EXPECT_THROW(omr::labelRegions(cv::Mat()), std::invalid_argument);
   EXPECT_THROW(omr::sumRegions(image, edges, edges), std::invalid_argument);

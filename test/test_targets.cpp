@@ -14,7 +14,7 @@ namespace
 std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
 {
   const cv::Mat filtered = omr::filterImage(image, settings.filter, settings.filter_size);
-  const cv::Mat edges = omr::edgeMask(filtered, settings.sobel_threshold);
+  const cv::Mat edges = omr::edgeMask(filtered, omr::edgeThreshold(settings));
   omr::RegionMap regions;
   regions.size = image.size();
   for (const auto& sums : omr::sumRegions(filtered, edges, omr::labelRegions(edges)))

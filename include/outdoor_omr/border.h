@@ -16,11 +16,15 @@ struct BorderLine
   int outside = 0;  ///< outer corners forecast outside the picture
   int seen = 0;     ///< those of them that are there
   int edges = 0;    ///< places where only the edge of a dark square is there
+  int bare = 0;     ///< places where a dark and a light square end at one plain ground, without a margin
   int goes_on = 0;  ///< places where four squares meet instead
   int margins = 0;  ///< light squares of the rim that the margin follows, where a dark one would if the board went on
 
-  /** The board ends at this line. */
+  /** The board ends at this line, with a margin beyond. */
   bool ends() const;
+
+  /** The board ends at this line, without a margin; or a thing that lies on it has its edge here. */
+  bool endsBare() const;
 
   /** So much speaks for it that nothing beyond it may be taken for the same board. */
   bool mayEnd() const;

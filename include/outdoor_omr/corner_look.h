@@ -25,6 +25,7 @@ struct CornerQuery
   float tolerance = 0.25F;    ///< largest deviation from the prediction [squares]
   float contrast = 0;         ///< of the known neighbours [grey levels]; 0: unknown
   float correlation = 0.85F;  ///< the least that is accepted
+  bool search = true;         ///< whether to search around a prediction from which no saddle point is reached
 };
 
 /**

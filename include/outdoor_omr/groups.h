@@ -13,7 +13,8 @@ namespace omr
 struct Seed
 {
   LocalFrame frame;
-  int rank = 0;  ///< the more, the likelier: neighbours alike that the two regions have
+  bool is_saddle_point = false;  ///< the node is a saddle point of the image, no estimate of one
+  int rank = 0;                  ///< the more, the likelier: neighbours alike that the two regions have
 };
 
 /**

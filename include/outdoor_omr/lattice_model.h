@@ -67,14 +67,17 @@ class LatticeModel
  private:
   static constexpr int MAX_TERMS = 15;
 
-  void features(double row, double col, double (&values)[MAX_TERMS]) const;
-  bool fitPolynomial(const std::vector<cv::Point2f>& nodes, const std::vector<cv::Point2f>& positions,
+  /** A node in the coordinates of the fit: the box spans [-1, 1]. */
+  cv::Point2d place(double row, double col) const;
+  cv::Point2f at(const cv::Point2d& place) const;
+  static void features(const cv::Point2d& place, double (&values)[MAX_TERMS]);
+  bool fitPolynomial(const std::vector<cv::Point2d>& places, const std::vector<cv::Point2f>& positions,
                      const std::vector<double>& weights, double ridge);
 
-  cv::Matx33d homography_ = cv::Matx33d::eye();
+  cv::Matx33d homography_ = cv::Matx33d::eye();  // from place() to pixels
   cv::Point2d coefficients_[MAX_TERMS];
   int terms_ = 0;
-  double row_ = 0, col_ = 0, half_height_ = 1, half_width_ = 1;  // of the box, for features of size 1
+  double row_ = 0, col_ = 0, half_height_ = 1, half_width_ = 1;  // of the box
   double rms_ = 0;
   double median_ = 0;
   int outliers_ = 0;

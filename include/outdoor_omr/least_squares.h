@@ -12,9 +12,10 @@ template <int N>
 class PointFit
 {
  public:
-  void add(const double (&features)[N], const cv::Point2d& position, double weight)
+  /** @param count of the features that solve() will be asked for, at most. */
+  void add(const double (&features)[N], const cv::Point2d& position, double weight, int count = N)
   {
-    for (int i = 0; i < N; ++i)
+    for (int i = 0; i < count; ++i)
     {
       const double weighted = weight * features[i];
       for (int j = 0; j <= i; ++j)

@@ -22,15 +22,29 @@ namespace omr
  */
 cv::Mat filterImage(const cv::Mat& bgr, Filter filter, int size);
 
+/** Where edges begin; grey levels of the 3x3 Sobel response, which is 8 times the slope per pixel, at most 2040. */
+struct EdgeThreshold
+{
+  int fixed = 100;   ///< the paper's
+  int floor = 2040;  ///< below `fixed`: the threshold of a tile is 0.45 of the strongest response in it and the eight
+                     ///< around it, but not below the floor nor above `fixed`
+};
+
+/** Size of the tiles of an adaptive threshold [px]. */
+constexpr int EDGE_TILE_WIDTH = 64;
+constexpr int EDGE_TILE_HEIGHT = 16;
+
+/** The threshold that the settings ask for. */
+EdgeThreshold edgeThreshold(const Settings& settings);
+
 /**
  * Colour Sobel edges (paper, section 3.1): the maximum over B, G and R of |gx| + |gy|, borders replicated.
  *
- * @param bgr       H x W, CV_8UC3.
- * @param threshold grey levels of the 3x3 Sobel response, which is 8 times the slope per pixel.
- * @return          H x W, CV_8UC1; 255 where the response exceeds the threshold, else 0.
+ * @param bgr H x W, CV_8UC3.
+ * @return    H x W, CV_8UC1; 255 where the response exceeds the threshold, else 0.
  * @throws std::invalid_argument if bgr is empty or has another type.
  */
-cv::Mat edgeMask(const cv::Mat& bgr, int threshold);
+cv::Mat edgeMask(const cv::Mat& bgr, const EdgeThreshold& threshold);
 
 /**
  * Gives every pixel the number of its contiguous colour region (paper, section 3.2).

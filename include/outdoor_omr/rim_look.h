@@ -11,6 +11,7 @@ enum class RimLook
 {
   outer_corner,  ///< one quadrant dark, the other three alike light: a dark square in the margin
   outer_edge,    ///< only the edge of the dark square, and none of the light one beside it; under a shadow's edge
+  bare_edge,     ///< a dark and a light square end at one plain ground: a board without a margin
   inner_corner,  ///< four squares: the board goes on
   unclear
 };

@@ -14,6 +14,13 @@ enum class Filter
   median
 };
 
+/** How the threshold of the edges is chosen. */
+enum class EdgeThresholdMethod
+{
+  fixed,    ///< one for the image (paper, section 3.1)
+  adaptive  ///< lower where the surroundings are faint
+};
+
 /** How contiguous regions get their labels; the labels are identical. */
 enum class FillMethod
 {

@@ -16,6 +16,13 @@ bool BorderLine::ends() const
   return seen >= 2 && seen > goes_on && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
 }
 
+bool BorderLine::endsBare() const
+{
+  constexpr int MIN_BARE = 4;  // an object over the board ends squares too, but seldom four along one line of them
+  constexpr float MIN_SHARE = 0.7F;
+  return bare >= MIN_BARE && goes_on == 0 && static_cast<float>(bare) >= MIN_SHARE * static_cast<float>(places);
+}
+
 BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window)
 {
   BorderLine result;
@@ -52,6 +59,7 @@ BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int
     const RimLook look = lookAtRim(frame, place, contrast);
     result.seen += look == RimLook::outer_corner ? 1 : 0;
     result.edges += look == RimLook::outer_edge ? 1 : 0;
+    result.bare += look == RimLook::bare_edge ? 1 : 0;
     result.goes_on += look == RimLook::inner_corner ? 1 : 0;
   }
   return result;

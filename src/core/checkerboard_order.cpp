@@ -16,7 +16,10 @@ cv::Point2f positionOf(const Lattice& lattice, int row, int col)
     return lattice.at(row, col).position;
   }
   LocalFrame predicted;
-  predictNode(lattice, row, col, WINDOW, predicted);
+  // Beside hidden corners nothing may be near: then from farther away.
+  for (int window = WINDOW; window < Lattice::SIZE && !predictNode(lattice, row, col, window, predicted); window *= 2)
+  {
+  }
   return predicted.node;
 }
 

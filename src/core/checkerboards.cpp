@@ -23,16 +23,20 @@ namespace
 constexpr int MIN_SHORT_SIDE = 4;
 constexpr int MIN_LONG_SIDE = 6;
 constexpr int MAX_SIDE = 20;
+constexpr int MAX_OVERGROWTH = 4;  // lines of false corners in the margin under the shadow of a fence; trimmed later
 constexpr float MIN_FILL = 0.35F;
 // Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
 constexpr float MAX_DOUBT = 2.3F;
 constexpr float MAX_BORDERED_DOUBT = 3.5F;  // with a border on all four sides, which clutter does not have
 // Gratings and grids of vents alternate as well, but they have no border and blurred corners.
 constexpr float BORDERLESS_CORRELATION = 0.98F;
+// Nor are they whole: this many corners without gaps are a board whose border the shadow of a fence hides.
+constexpr int BORDERLESS_CORNERS = 40;
+constexpr float BORDERLESS_FILL = 0.9F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
-constexpr float MAX_GROWN_DOUBT = 2;  // from 36 corners on
-constexpr int MIN_CORNERS = 6;        // within reach of one another, or it is no lattice
-constexpr float SMALL_SQUARE = 5;     // px; below it nearly all corners must be found
+constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
+constexpr int MIN_CORNERS = 6;           // within reach of one another, or it is no lattice
+constexpr float SMALL_SQUARE = 5;        // px; below it nearly all corners must be found
 constexpr float SMALL_SQUARE_FILL = 0.85F;
 constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
 constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
@@ -61,30 +65,31 @@ void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
 }
 
 /** Grows a lattice from the seed, giving up as early as clutter shows. @return false if it is none. */
-bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
+bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
 {
   CornerQuery query;
   query.tolerance = 0.3F;
-  const CornerLook corner = looker.look(seed, query);
+  query.search = !seed.is_saddle_point;
+  const CornerLook corner = looker.look(seed.frame, query);
   if (!corner.found)
   {
-    map.addFailure(seed.node, squareHeight(seed));
+    map.addFailure(seed.frame.node, squareHeight(seed.frame));
     return false;
   }
-  lattice.start(seed, corner);
+  lattice.start(seed.frame, corner);
   // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
   for (int count = 9; count < UNLIMITED; count *= 2)
   {
     growLattice(lattice, looker, count);
     if (lattice.count() < MIN_CORNERS)
     {
-      map.addFailure(seed.node, squareHeight(seed));
+      map.addFailure(seed.frame.node, squareHeight(seed.frame));
       return false;
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
     if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) ||
-        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + 1)
+        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + MAX_OVERGROWTH)
     {
       noteFailure(lattice, 1, map);
       return false;
@@ -97,12 +102,21 @@ bool growFromSeed(const LocalFrame& seed, CornerLooker& looker, Lattice& lattice
   return true;
 }
 
+/** Whether the corners alone speak for a board, with no border seen. */
+bool isClear(const Lattice& lattice, const Evidence& evidence)
+{
+  return evidence.correlation >= BORDERLESS_CORRELATION ||
+         (lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL);
+}
+
 /** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
-  return latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
-         std::any_of(SIDES.begin(), SIDES.end(),
-                     [&](Side side) { return lookAtBorder(lattice, looker.frame(), side, 1).seen >= 2; });
+  return lattice.count() >= BORDERLESS_CORNERS || latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
+         std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
+           const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
+           return border.seen >= 2 || border.endsBare();
+         });
 }
 
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
@@ -111,11 +125,12 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const int longer = std::max(lattice.box.width, lattice.box.height);
   const Evidence evidence = latticeEvidence(lattice);
   const float height = squareHeight(lattice.seedFrame());
-  const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border);
+  const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border) +
+                       std::count(sides.begin(), sides.end(), SideEvidence::bare);
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
          evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
-         (borders > 0 || evidence.correlation >= BORDERLESS_CORRELATION) && !goes_on && height >= MIN_SQUARE &&
+         (borders > 0 || isClear(lattice, evidence)) && !goes_on && height >= MIN_SQUARE &&
          (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
@@ -162,7 +177,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
       return;
     }
     const int looks = looker.looksLeft();
-    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed.frame, looker, lattice, map))
+    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed, looker, lattice, map))
     {
       continue;
     }
@@ -201,7 +216,9 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
   const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
                                   [&](const auto& corner) { return picture.contains(corner); });
   const auto& sides = candidate.sides;
-  board.size_certain = inside && std::count(sides.begin(), sides.end(), SideEvidence::border) == 4;
+  // A side without a margin beside others with one may be the edge of a thing that lies on the board.
+  board.size_certain = inside && (std::count(sides.begin(), sides.end(), SideEvidence::border) == 4 ||
+                                  std::count(sides.begin(), sides.end(), SideEvidence::bare) == 4);
   return board;
 }
 }  // namespace

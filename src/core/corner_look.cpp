@@ -1,6 +1,7 @@
 #include "outdoor_omr/corner_look.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "outdoor_omr/corner_ring.h"
@@ -25,9 +26,22 @@ struct Verdict
 constexpr float INNER_RADIUS = 0.3F;  // squares
 constexpr float OUTER_RADIUS = 0.5F;  // squares
 
-Verdict judgeRing(const PyramidView& view, const LocalFrame& frame)
+/** Whether all but the correlation speaks for the corner. */
+bool mayAccept(const CornerQuery& query, const Verdict& verdict)
 {
-  const Ring ring = sampleRing(view, frame, INNER_RADIUS, OUTER_RADIUS);
+  return (query.sign == 0 || verdict.sign == query.sign) &&
+         verdict.gap > std::max(MIN_GAP, MIN_GAP_SHARE * verdict.contrast) &&
+         verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
+}
+
+bool accepts(const CornerQuery& query, const Verdict& verdict)
+{
+  return mayAccept(query, verdict) && verdict.correlation > query.correlation;
+}
+
+/** Sign, contrast and gap of the ring. */
+Verdict judgeQuadrants(const Ring& ring)
+{
   float median[QUADRANTS];
   for (int q = 0; q < QUADRANTS; ++q)
   {
@@ -40,7 +54,14 @@ Verdict judgeRing(const PyramidView& view, const LocalFrame& frame)
   const float first = std::min(median[0], median[2]) - std::max(median[1], median[3]);
   const float second = std::min(median[1], median[3]) - std::max(median[0], median[2]);
   verdict.gap = verdict.sign > 0 ? first : second;
-  if (verdict.gap > MIN_GAP)
+  return verdict;
+}
+
+Verdict judgeRing(const PyramidView& view, const LocalFrame& frame, const CornerQuery& query)
+{
+  const Ring ring = sampleRing(view, frame, INNER_RADIUS, OUTER_RADIUS);
+  Verdict verdict = judgeQuadrants(ring);
+  if (mayAccept(query, verdict))
   {
     const auto s = static_cast<float>(verdict.sign);
     verdict.correlation = ringCorrelation(ring, {s, -s, s, -s});
@@ -48,12 +69,98 @@ Verdict judgeRing(const PyramidView& view, const LocalFrame& frame)
   return verdict;
 }
 
-bool accepts(const CornerQuery& query, const Verdict& verdict)
+/** Sums over one row of a window: of the grey values, and of these times x and x^2. */
+struct RowSums
 {
-  return (query.sign == 0 || verdict.sign == query.sign) &&
-         verdict.gap > std::max(MIN_GAP, MIN_GAP_SHARE * verdict.contrast) && verdict.correlation > query.correlation &&
-         verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
+  float sum, x, xx;
+};
+
+RowSums interpolate(const RowSums& a, const RowSums& b, float share)
+{
+  return {a.sum + share * (b.sum - a.sum), a.x + share * (b.x - a.x), a.xx + share * (b.xx - a.xx)};
 }
+
+/**
+ * Sums over a square window that lies anywhere between the pixels. They are linear in the grey values, so the sums
+ * over whole pixels are interpolated instead of the pixels, and taken only when the window leaves its pixel.
+ */
+class MomentWindow
+{
+ public:
+  static constexpr int MAX_RADIUS = 6;
+
+  MomentWindow(const cv::Mat& grey, int radius) : grey_(grey), radius_(radius)
+  {
+  }
+
+  struct Moments
+  {
+    float z = 0, zx = 0, zy = 0, zxx = 0, zxy = 0, zyy = 0;
+  };
+
+  /** @param center at least radius + 1 from the image's border. */
+  Moments at(const cv::Point2f& center)
+  {
+    const cv::Point pixel(static_cast<int>(center.x), static_cast<int>(center.y));
+    if (pixel != pixel_)
+    {
+      gather(pixel);
+    }
+    const float a = center.x - static_cast<float>(pixel.x);
+    const float b = center.y - static_cast<float>(pixel.y);
+    Moments moments;
+    RowSums above = interpolate(left_[0], right_[0], a);
+    for (int i = 0; i <= 2 * radius_; ++i)
+    {
+      const RowSums below = interpolate(left_[i + 1], right_[i + 1], a);
+      const RowSums row = interpolate(above, below, b);
+      const auto y = static_cast<float>(i - radius_);
+      moments.z += row.sum;
+      moments.zx += row.x;
+      moments.zxx += row.xx;
+      moments.zy += y * row.sum;
+      moments.zxy += y * row.x;
+      moments.zyy += y * y * row.sum;
+      above = below;
+    }
+    return moments;
+  }
+
+ private:
+  /** Sums of the rows around the pixel, and the same one pixel further right. */
+  void gather(const cv::Point& pixel)
+  {
+    pixel_ = pixel;
+    const int r = radius_;
+    for (int i = 0; i <= 2 * r + 1; ++i)
+    {
+      const uchar* row = grey_.ptr<uchar>(pixel.y + i - r) + pixel.x;
+      int sum = 0;
+      int x1 = 0;
+      int x2 = 0;
+      for (int x = -r; x <= r; ++x)
+      {
+        const int value = row[x];
+        sum += value;
+        x1 += x * value;
+        x2 += x * x * value;
+      }
+      left_[i] = {static_cast<float>(sum), static_cast<float>(x1), static_cast<float>(x2)};
+      const int first = row[-r];
+      const int last = row[r + 1];
+      sum += last - first;
+      x1 += (r + 1) * last + r * first;
+      x2 += (r + 1) * (r + 1) * last - r * r * first;
+      right_[i] = {static_cast<float>(sum), static_cast<float>(x1 - sum), static_cast<float>(x2 - 2 * x1 + sum)};
+    }
+  }
+
+  const cv::Mat& grey_;
+  int radius_;
+  cv::Point pixel_ = {-1, -1};
+  std::array<RowSums, 2 * MAX_RADIUS + 2> left_;
+  std::array<RowSums, 2 * MAX_RADIUS + 2> right_;
+};
 
 /**
  * Saddle point of the quadratic fitted to a square window, re-centred until it rests.
@@ -76,55 +183,20 @@ bool fitSaddle(const cv::Mat& grey, cv::Point2f& point, int radius, float reach)
   const float s2 = s2_line * (2 * r + 1);
   const float s4 = s4_line * (2 * r + 1);
   const float s22 = s2_line * s2_line;
+  MomentWindow window(grey, radius);
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
     if (!isInside(grey, point, r + 1))
     {
       return false;
     }
-    const int column = static_cast<int>(point.x);
-    const int row = static_cast<int>(point.y);
-    const float a = point.x - static_cast<float>(column);
-    const float b = point.y - static_cast<float>(row);
-    const float w00 = (1 - a) * (1 - b);
-    const float w01 = a * (1 - b);
-    const float w10 = (1 - a) * b;
-    const float w11 = a * b;
-    float z = 0;
-    float zx = 0;
-    float zy = 0;
-    float zxx = 0;
-    float zxy = 0;
-    float zyy = 0;
-    for (int y = -radius; y <= radius; ++y)
-    {
-      const uchar* above = grey.ptr<uchar>(row + y) + column - radius;
-      const uchar* below = above + grey.step;
-      float line = 0;
-      float line_x = 0;
-      float line_xx = 0;
-      for (int i = 0; i <= 2 * radius; ++i)
-      {
-        const auto x = static_cast<float>(i - radius);
-        const float value = w00 * above[i] + w01 * above[i + 1] + w10 * below[i] + w11 * below[i + 1];
-        line += value;
-        line_x += x * value;
-        line_xx += x * x * value;
-      }
-      const auto fy = static_cast<float>(y);
-      z += line;
-      zx += line_x;
-      zxx += line_xx;
-      zy += fy * line;
-      zyy += fy * fy * line;
-      zxy += fy * line_x;
-    }
+    const MomentWindow::Moments m = window.at(point);
     // z = f + d x + e y + qxx x^2 + qxy x y + qyy y^2
-    const float d = zx / s2;
-    const float e = zy / s2;
-    const float qxy = zxy / s22;
-    const float difference = (zxx - zyy) / (s4 - s22);
-    const float sum = (zxx + zyy - 2 * s2 * z / n) / (s4 + s22 - 2 * s2 * s2 / n);
+    const float d = m.zx / s2;
+    const float e = m.zy / s2;
+    const float qxy = m.zxy / s22;
+    const float difference = (m.zxx - m.zyy) / (s4 - s22);
+    const float sum = (m.zxx + m.zyy - 2 * s2 * m.z / n) / (s4 + s22 - 2 * s2 * s2 / n);
     const float qxx = (sum + difference) / 2;
     const float qyy = (sum - difference) / 2;
     const float determinant = 4 * qxx * qyy - qxy * qxy;
@@ -153,7 +225,7 @@ bool fitSaddle(const cv::Mat& grey, cv::Point2f& point, int radius, float reach)
 
 int fitRadius(float square_height)
 {
-  return std::max(1, std::min(6, static_cast<int>(std::lround(0.32F * square_height))));
+  return std::max(1, std::min(MomentWindow::MAX_RADIUS, static_cast<int>(std::lround(0.32F * square_height))));
 }
 
 /** Quick look before the ring: one sample a quadrant must alternate, whatever the sign. */
@@ -183,7 +255,7 @@ bool searchRing(const PyramidView& view, const LocalFrame& predicted, const Corn
       {
         continue;
       }
-      const Verdict verdict = judgeRing(view, moved);
+      const Verdict verdict = judgeQuadrants(sampleRing(view, moved, INNER_RADIUS, OUTER_RADIUS));
       if (verdict.gap > best_gap && (query.sign == 0 || verdict.sign == query.sign))
       {
         best_gap = verdict.gap;
@@ -228,16 +300,19 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
   const float level_height = height * view.scale;
   const int radius = fitRadius(level_height);
   LocalFrame corner = predicted;
+  Verdict verdict;
   cv::Point2f point = predicted.node * view.scale;
   bool found = fitSaddle(*view.grey, point, radius, query.tolerance * level_height + 0.5F);
   if (found)
   {
     corner.node = point * (1 / view.scale);
-    found = accepts(query, judgeRing(view, corner));
+    verdict = judgeRing(view, corner, query);
+    found = accepts(query, verdict);
   }
-  if (!found)
+  const bool searched = !found;
+  if (searched)
   {
-    if (!searchRing(view, predicted, query, corner.node))
+    if (!query.search || !searchRing(view, predicted, query, corner.node))
     {
       return result;
     }
@@ -248,7 +323,10 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
     }
   }
   refineDownwards(frame_, view.level, height, corner.node);
-  const Verdict verdict = judgeRing(view, corner);
+  if (searched || view.level > 0)
+  {
+    verdict = judgeRing(view, corner, query);
+  }
   result.position = corner.node;
   result.sign = verdict.sign;
   result.contrast = verdict.contrast;

@@ -84,12 +84,15 @@ Ring sampleRing(const PyramidView& view, const LocalFrame& frame, float inner_ra
     v[i] = std::max(ANGLES[i / 2][1] * radius, least_v);
   }
   Ring ring;
-  for (int q = 0; q < QUADRANTS; ++q)
+  for (int i = 0; i < QUADRANT_SAMPLES; ++i)
   {
-    for (int i = 0; i < QUADRANT_SAMPLES; ++i)
-    {
-      ring[q * QUADRANT_SAMPLES + i] = view.sample(frame.at(QUADRANT_U[q] * u[i], QUADRANT_V[q] * v[i]));
-    }
+    // Opposite quadrants mirror each other at the node.
+    const cv::Point2f same = u[i] * frame.u + v[i] * frame.v;
+    const cv::Point2f other = u[i] * frame.u - v[i] * frame.v;
+    ring[i] = view.sample(frame.node + same);
+    ring[QUADRANT_SAMPLES + i] = view.sample(frame.node - other);
+    ring[2 * QUADRANT_SAMPLES + i] = view.sample(frame.node - same);
+    ring[3 * QUADRANT_SAMPLES + i] = view.sample(frame.node + other);
   }
   return ring;
 }

@@ -225,7 +225,7 @@ std::vector<Seed> pairNeighbours(const Frame& frame, const RegionMap& regions)
       {
         ++links[a];
         ++links[b];
-        pairs.push_back({{corner, 0}, a, b});
+        pairs.push_back({{corner, false, 0}, a, b});
       }
     }
   }

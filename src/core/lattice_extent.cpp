@@ -130,6 +130,10 @@ SideEvidence sideEvidence(const Lattice& lattice, Side side, const BorderLine& b
   {
     return SideEvidence::border;
   }
+  if (border.endsBare())
+  {
+    return SideEvidence::bare;
+  }
   if (border.outside > border.places)
   {
     return SideEvidence::cut;

@@ -88,17 +88,22 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
   bool wide = false;
   for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS; ++round)
   {
-    LatticeModel model;
     const cv::Rect box = lattice.box;
-    const bool fits =
-        model.fit(lattice, LatticeModel::homography, 0) &&
-        model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
-    const float contrast = lattice.medianContrast();
     int reach[4] = {};
     for (const Side side : SIDES)
     {
       reach[side] = lookAtBorder(lattice, looker.frame(), side, 1).ends() ? 0 : REACH;
     }
+    const bool is_closed = std::all_of(std::begin(reach), std::end(reach), [](int squares) { return squares == 0; });
+    if (is_closed && lattice.count() == box.area())
+    {
+      return;
+    }
+    LatticeModel model;
+    const bool fits =
+        model.fit(lattice, LatticeModel::homography, 0) &&
+        model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
+    const float contrast = lattice.medianContrast();
     std::vector<Find> finds;
     for (int i = box.y - reach[top]; i < box.br().y + reach[bottom]; ++i)
     {

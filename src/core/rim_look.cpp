@@ -73,6 +73,21 @@ bool endsAtLine(const PyramidView& view, const LocalFrame& frame, const cv::Poin
   }
   return true;
 }
+
+/**
+ * Whether a dark and a light square of the rim end where one plain ground begins, as they do on a board cut along its
+ * squares. In logarithms as well: in a deep shadow two squares differ by few grey levels, but by as large a ratio.
+ *
+ * @param dark, light, first, second medians of the quadrants: two inside, two outside.
+ */
+bool endAtGround(float dark, float light, float first, float second)
+{
+  constexpr float MAX_DIFFERENCE = 0.2F;  // of the ground, in contrasts of the board
+  return std::abs(first - second) < MAX_DIFFERENCE * (light - dark) &&
+         std::abs(greyLogarithm(first) - greyLogarithm(second)) <
+             MAX_DIFFERENCE * (greyLogarithm(light) - greyLogarithm(dark));
+}
+
 /** Unit steps in squares from a place of the rim: to its dark square along the border, and into the board. */
 struct RimAxes
 {
@@ -137,6 +152,17 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   if (ends && haveOneColor(frame.bgr, place.predicted, dark))
   {
     return RimLook::outer_edge;
+  }
+  // The quadrants run around the node, so the light square of the rim is beside the dark one along the border.
+  const int next = (dark + 1) % QUADRANTS;
+  const bool next_is_inside =
+      place.along_row ? QUADRANT_V[next] == QUADRANT_V[dark] : QUADRANT_U[next] == QUADRANT_U[dark];
+  const float light_inside = next_is_inside ? beside_a : beside_b;
+  const float dark_outside = next_is_inside ? beside_b : beside_a;
+  if (light_inside - median[dark] > least_gap && endAtGround(median[dark], light_inside, dark_outside, opposite) &&
+      ringCorrelation(ring, median) > MIN_CORRELATION)
+  {
+    return RimLook::bare_edge;
   }
   return RimLook::unclear;
 }

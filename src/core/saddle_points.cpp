@@ -238,7 +238,7 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
       const float gap = alternation(grey, frame);
       if (gap >= least_gap)
       {
-        seed = {frame, static_cast<int>(gap)};
+        seed = {frame, true, static_cast<int>(gap)};
         return true;
       }
     }
@@ -261,21 +261,19 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
   {
     return points;
   }
-  cv::Mat smooth;
-  cv::GaussianBlur(grey, smooth, cv::Size(5, 5), 1);
-  const int width = smooth.cols;
+  const int width = grey.cols;
   std::vector<std::int16_t> buffer(3 * width, 0);
   std::array<std::int16_t*, 3> rows = {buffer.data(), buffer.data() + width, buffer.data() + 2 * width};
-  for (int y = MARGIN - 1; y <= smooth.rows - MARGIN; ++y)
+  for (int y = MARGIN - 1; y <= grey.rows - MARGIN; ++y)
   {
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
-    saddleResponse(smooth.ptr<uchar>(y - 1), smooth.ptr<uchar>(y), smooth.ptr<uchar>(y + 1), width, rows[2]);
+    saddleResponse(grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), width, rows[2]);
     if (y < MARGIN + 1)
     {
       continue;
     }
     forEachMaximum({rows[0], rows[1], rows[2]}, width, least.response, [&](int x) {
-      if (isPointSymmetric(smooth, x, y - 1, least.range))
+      if (isPointSymmetric(grey, x, y - 1, least.range))
       {
         found.push_back({rows[1][x], {x, y - 1}});
       }
@@ -298,7 +296,7 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
 
 std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, const SearchMap& open)
 {
-  const cv::Mat& grey = level == 0 ? frame.raw_grey : frame.grey[level];
+  const cv::Mat& grey = frame.grey[level];
   const auto scale = static_cast<float>(1 << level);
   const std::vector<cv::Point> points = findSaddlePoints(grey, faint, faint ? MAX_FAINT_POINTS : MAX_POINTS);
   const PointGrid grid(points, grey.size());

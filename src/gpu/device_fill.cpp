@@ -8,7 +8,6 @@ namespace omr
 namespace
 {
 constexpr int GPU_LANES = 64;  // a wavefront of AMD, two warps of NVIDIA
-constexpr int EDGE_ROWS = 16;  // kernels/edges.cl
 
 double millisecondsBetween(cl_ulong start, cl_ulong end)
 {
@@ -70,13 +69,19 @@ void DeviceFill::filter(Filter filter, int size)
   step_ = static_cast<cl_long>(size_.width) * 3;
 }
 
-void DeviceFill::findEdges(int threshold)
+void DeviceFill::findEdges(const EdgeThreshold& threshold)
 {
   const bool by_strips = geometry_ == Geometry::strips;
-  const int groups_down = by_strips ? divideUp(size_.height, EDGE_ROWS) : size_.height;
+  const Groups tiles = {static_cast<std::size_t>(divideUp(size_.width, EDGE_TILE_WIDTH)),
+                        static_cast<std::size_t>(divideUp(size_.height, EDGE_TILE_HEIGHT))};
+  if (threshold.floor < threshold.fixed)
+  {
+    launch(by_strips ? "strengthStrip" : "strengthTile", tiles, image_, step_, size_.width, size_.height,
+           *buffers_.strength);
+  }
   launch(by_strips ? "edgesStrip" : "edgesWord",
-         {static_cast<std::size_t>(divideUp(size_.width, 64)), static_cast<std::size_t>(groups_down)}, image_, step_,
-         size_.width, size_.height, threshold, *buffers_.mask);
+         {tiles.x, by_strips ? tiles.y : static_cast<std::size_t>(size_.height)}, image_, step_, size_.width,
+         size_.height, *buffers_.strength, threshold.floor, threshold.fixed, *buffers_.mask);
   edges_found_ = last_event_;
 }
 
@@ -190,7 +195,7 @@ void DeviceFill::warmUp()
     {
       loadImage(image);
       filter(kind, size);
-      findEdges(200);
+      findEdges({200, size == 3 ? 200 : 100});
       readEdges(edges);
       labelRegions(size == 3 ? FillMethod::runs : FillMethod::sweep, image.rows * image.cols);
       readLabels(labels);

@@ -7,6 +7,7 @@
 
 #include "device.h"
 #include "fill_buffers.h"
+#include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
 #include "program.h"
@@ -44,7 +45,7 @@ class DeviceFill
   void loadImage(const cv::Mat& bgr);
 
   void filter(Filter filter, int size);
-  void findEdges(int threshold);
+  void findEdges(const EdgeThreshold& threshold);
 
   /** In the place of findEdges(): takes an edge mask (CV_8UC1, 0 = region) of the image's size; waits. */
   void loadEdges(const cv::Mat& edges);

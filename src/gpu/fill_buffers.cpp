@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/region.h"
 
 namespace omr
@@ -44,6 +45,9 @@ void FillBuffers::reserve(const cl::Context& context, const cv::Size& size, cons
   const std::size_t words = height * divideUp(size.width, 64);
   const std::size_t all_runs = height * divideUp(size.width, 2);
   filtered.reserve(context, height * size.width, 3);
+  strength.reserve(context,
+                   divideUp(size.height, EDGE_TILE_HEIGHT) * std::size_t(divideUp(size.width, EDGE_TILE_WIDTH)),
+                   sizeof(cl_int));
   mask.reserve(context, words, sizeof(cl_ulong));
   runs.reserve(context, all_runs, 2 * sizeof(cl_ushort));
   row_first.reserve(context, height, sizeof(cl_int));
@@ -95,7 +99,7 @@ std::size_t FillBuffers::bytes() const
 {
   std::size_t sum = 0;
   for (const GrowingBuffer* buffer :
-       {&filtered, &mask, &runs, &row_first, &row_runs, &rank, &run_slot, &parent, &slot_label, &slot_record,
+       {&filtered, &strength, &mask, &runs, &row_first, &row_runs, &rank, &run_slot, &parent, &slot_label, &slot_record,
         &strip_slots, &strip_reports, &scratch, &counters, &records, &reported})
   {
     sum += buffer->bytes();

@@ -73,6 +73,7 @@ void giveBack(std::vector<T>& elements, std::size_t enough)
 struct FillBuffers
 {
   GrowingBuffer filtered;       ///< H x W x 3 bytes
+  GrowingBuffer strength;       ///< strongest edge response of each tile, see kernels/edges.cl
   GrowingBuffer mask;           ///< 1 bit a pixel, see kernels/mask.cl
   GrowingBuffer runs;           ///< start and end of every run
   GrowingBuffer row_first;      ///< of each row: its first run

@@ -142,7 +142,7 @@ class FillPipeline::Implementation
     {
       fill_->loadImage(bgr);
       fill_->filter(settings.filter, settings.filter_size);
-      fill_->findEdges(settings.sobel_threshold);
+      fill_->findEdges(edgeThreshold(settings));
       fill_->labelRegions(settings.fill_method, settings.sweep_rounds);
       readOutputs(outputs, map);
       fill_->sumRegions(areaWindow(settings, bgr));
@@ -186,7 +186,7 @@ class FillPipeline::Implementation
     };
     const cv::Mat filtered = filterImage(bgr, settings.filter, settings.filter_size);
     times.filter = lap();
-    const cv::Mat edges = edgeMask(filtered, settings.sobel_threshold);
+    const cv::Mat edges = edgeMask(filtered, edgeThreshold(settings));
     times.edges = lap();
     const cv::Mat labels = labelRegions(edges);
     times.labels = lap();

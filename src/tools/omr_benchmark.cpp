@@ -57,7 +57,7 @@ Settings settingsOf(Filter filter, FillMethod method = FillMethod::runs)
 
 cv::Mat edgesOfImage(const cv::Mat& image)
 {
-  return omr::edgeMask(image, Settings().sobel_threshold);
+  return omr::edgeMask(image, omr::edgeThreshold(Settings()));
 }
 
 /** Black pixels are edges. */

@@ -58,7 +58,7 @@ Contestant OurSteps::edges() const
   return {"edges", [fill = fill_](const cv::Mat& image) {
             return [=] {
               fill->loadImage(image);
-              fill->findEdges(Settings().sobel_threshold);
+              fill->findEdges(edgeThreshold(Settings()));
               fill->finish();
             };
           }};

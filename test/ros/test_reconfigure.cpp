@@ -72,6 +72,9 @@ const std::map<std::string, Move> MOVES = {
     {"filter", {"none", true, PAINTED}},
     {"filter_size", {"5", true, PAINTED}},
     {"sobel_threshold", {"300", true, PAINTED}},
+    {"edge_threshold", {"adaptive", true, {{"overlay_regions", "true"}, {"sobel_threshold", "2040"}}}},
+    {"sobel_floor",
+     {"2040", true, {{"overlay_regions", "true"}, {"sobel_threshold", "2040"}, {"edge_threshold", "adaptive"}}}},
     {"fill_method", {"sweep", false, PAINTED}},  // two ways to the same labels
     {"sweep_rounds", {"1", false, {{"overlay_regions", "true"}, {"fill_method", "sweep"}}}},
     {"region_min_area", {"1000000", true, {}}},
