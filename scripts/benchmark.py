@@ -25,16 +25,17 @@ GOALS = [
     (r"/labels by sweeps/|/labels and region data by sweeps/", None),
     (r"/labels/", 0.5),
     (r"/labels and region data/", 0.5),
+    (r"/pipeline, gaussian/OpenCV", 0.5),
     (r"/detector, gaussian/cv::findChessboardCornersSB", 0.1),
     (r"/detector, gaussian/AprilTag", 1),
 ]
 
-# The rows that the check looks at, and the share by which a ratio may exceed its baseline: ten checks beside six busy
-# processes on two cores stayed within 10 %, so that what became 25 % slower does not pass.
-CHECKED = "^scene 1280x720/(gaussian 3|median 3|edges|labels|labels and region data|pipeline, gaussian)/(cv::|OpenCV)"
-TOLERANCE = 0.2
-ATTEMPTS = 4       # of half a second a row
-MORE_ATTEMPTS = 6  # for the rows that are too slow after that
+# What the check looks at, and the share by which its ratio may exceed the baseline. The whole pipeline only: a neighbour
+# of a virtual machine can slow a single step by 40 % for minutes and leave its peer alone.
+CHECKED = "^scene 1280x720/pipeline, gaussian/OpenCV"
+TOLERANCE = 0.15
+ATTEMPTS = 6        # of half a second
+MORE_ATTEMPTS = 14  # while it is too slow
 
 
 def goal_of(name):
@@ -109,7 +110,7 @@ def report(arguments):
 
 class Ratios:
     """
-    Of every row the second lowest ratio of all attempts, each of them one of lowest deciles of CPU time, one thread.
+    Of every row checked the second lowest ratio of all attempts, each of them one of lowest deciles of CPU time, one thread.
 
     What else the machine does makes a ratio larger, and once in a while one smaller, when only the peer suffers: hence
     the second lowest. All happens on one core: on two, PoCL's thread wakes beside a cold cache when the machine is
@@ -143,8 +144,12 @@ def limits():
     known = baselines.get(machine())
     if known is None:
         print("no baseline for this CPU, %s: the goals are the limits" % machine())
-        return {name: goal_of(name) or 1 for name in next(iter(baselines.values()))}
+        return {name: goal_of(name) for name in next(iter(baselines.values()))}
     return {name: ratio * (1 + TOLERANCE) for name, ratio in known.items()}
+
+
+def exceeding(ratios, largest):
+    return [name for name, ratio in ratios.items() if ratio > largest[name]]
 
 
 def check(arguments):
@@ -155,14 +160,13 @@ def check(arguments):
     if set(ratios.values()) != set(largest):
         print("the rows of the check and of %s differ: benchmark --write-baseline" % os.path.basename(BASELINE))
         return 1
-    slow = []
     for _ in range(MORE_ATTEMPTS):
-        slow = [name for name, ratio in ratios.values().items() if ratio > largest[name]]
-        if not slow:
+        if not exceeding(ratios.values(), largest):
             break
-        ratios.attempt("^(" + "|".join(slow) + ")/")
+        ratios.attempt(CHECKED)
+    slow = exceeding(ratios.values(), largest)
     for name, ratio in ratios.values().items():
-        print("%-75s %.3f, limit %.3f%s" % (name, ratio, largest[name], ", SLOW" if name in slow else ""))
+        print("%s: %.3f, limit %.3f%s" % (name, ratio, largest[name], ", SLOW" if name in slow else ""))
     return 1 if slow else 0
 
 
