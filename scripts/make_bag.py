@@ -2,7 +2,7 @@
 """make_bag.py OUTPUT.bag IMAGE... [--topic /camera/image_raw] [--rate HZ]
 
 A bag of images, as a camera driver publishes them. Beside each image, at the same time, its file name as
-std_msgs/String on TOPIC_file; a last, empty name keeps the replay alive until the last image has been processed.
+std_msgs/String on TOPIC_file; empty names at both ends give listeners time to connect, and to process the last image.
 """
 import argparse
 import os
@@ -14,6 +14,7 @@ import rospy
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
+HEAD_S = 1.
 TAIL_S = 3.  # a slow machine needs about a second for a large image
 
 
@@ -35,6 +36,8 @@ def main():
     arguments = parser.parse_args()
     with rosbag.Bag(arguments.bag, 'w', compression='lz4') as bag:
         stamp = rospy.Time(1)
+        bag.write(arguments.topic + '_file', String(''), stamp)
+        stamp += rospy.Duration.from_sec(HEAD_S)
         for name in arguments.images:
             image = cv2.imread(name)
             if image is None:
