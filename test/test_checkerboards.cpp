@@ -216,6 +216,28 @@ TEST(Checkerboards, hiddenRimsHaveNoCertainSize)
   }
 }
 
+TEST(Checkerboards, aLightThingOverTheLastSquaresIsNoMargin)
+{
+  // White paper over the last columns but for the outermost squares, as if the board ended where it begins.
+  const cv::Matx33d truth = omr::test::boardHomography(5, 9, {300, 220}, 30, 0);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  for (const double begin : {5.6, 5.75, 5.9, 6.05, 6.2})
+  {
+    for (const double slope : {-0.3, -0.15, 0.15})
+    {
+      Render render({600, 440}, cv::Scalar(90, 140, 170));
+      render.addBoard(5, 9, truth);
+      render.addPolygon({at(begin, 1), at(10.5, 1 - slope), at(10.5, 4 - slope), at(begin + slope, 4)},
+                        cv::Scalar(215, 205, 195));
+      for (const Checkerboard& board : find(render.picture()))
+      {
+        EXPECT_TRUE(!board.size_certain || board.cols == 9)
+            << board.rows << " x " << board.cols << ", paper from " << begin << ", slope " << slope;
+      }
+    }
+  }
+}
+
 TEST(Checkerboards, nothingInPicturesWithoutABoard)
 {
   EXPECT_TRUE(find(cv::Mat::zeros(1, 1, CV_8UC3)).empty());

@@ -40,6 +40,12 @@ BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, i
 /** The same for any line. @param window of the predictions [nodes]. */
 BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window);
 
+/**
+ * Whether a square of a neighbouring side's rim is seen beyond this side's border: a thing then covers the middle of a
+ * board that goes on, and its edge was taken for the border.
+ */
+bool rimGoesOn(const Lattice& lattice, const Frame& frame, Side side);
+
 }  // namespace omr
 
 #endif

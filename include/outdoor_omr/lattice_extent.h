@@ -16,11 +16,12 @@ void dropOutliers(Lattice& lattice);
 /** How well the end of the board is known on one side of the settled box. */
 enum class SideEvidence
 {
-  border,  ///< the border of the board is seen, with its margin
-  bare,    ///< the squares end at plain ground: a board without a margin, or the edge of a thing that lies on it
-  rim,     ///< the last line of inner corners is seen, not the border: a narrow margin, or little of it is visible
-  cut,     ///< the border lies outside the picture
-  none     ///< hidden: the board may go on
+  border,           ///< the border of the board is seen, with its margin
+  doubtful_border,  ///< the same beside hidden corners, but the rim goes on: the edge of what hides them
+  bare,  ///< the squares end at plain ground: a board without a margin, or the edge of a thing that lies on it
+  rim,   ///< the last line of inner corners is seen, not the border: a narrow margin, or little of it is visible
+  cut,   ///< the border lies outside the picture
+  none   ///< hidden: the board may go on
 };
 
 /**

@@ -125,8 +125,9 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const int longer = std::max(lattice.box.width, lattice.box.height);
   const Evidence evidence = latticeEvidence(lattice);
   const float height = squareHeight(lattice.seedFrame());
-  const auto borders = std::count(sides.begin(), sides.end(), SideEvidence::border) +
-                       std::count(sides.begin(), sides.end(), SideEvidence::bare);
+  const auto borders = std::count_if(sides.begin(), sides.end(), [](SideEvidence side) {
+    return side == SideEvidence::border || side == SideEvidence::doubtful_border || side == SideEvidence::bare;
+  });
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
          evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
