@@ -25,7 +25,7 @@ std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settin
       regions.regions.push_back(omr::toRegion(sums));
     }
   }
-  return omr::findTargets(omr::makeFrame(image), regions, settings);
+  return omr::findTargets(omr::makeFrame(image), regions, {}, settings);
 }
 
 void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1)
@@ -214,7 +214,7 @@ TEST(Targets, survivesTinyImages)
     EXPECT_TRUE(find(cv::Mat(size, CV_8UC3, cv::Scalar::all(90))).empty());
   }
   omr::Frame frame;
-  EXPECT_TRUE(omr::findTargets(frame, {}, Settings()).empty());
+  EXPECT_TRUE(omr::findTargets(frame, {}, {}, Settings()).empty());
 }
 
 int main(int argc, char** argv)

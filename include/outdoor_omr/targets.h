@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/frame.h"
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
@@ -15,9 +16,11 @@ namespace omr
  *
  * @param frame    the image.
  * @param regions  its regions.
+ * @param boards   its checkerboards: what lies on them is no target.
  * @param settings the tunables of group "target".
  */
-std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const Settings& settings);
+std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
+                                const Settings& settings);
 
 }  // namespace omr
 

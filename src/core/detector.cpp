@@ -53,7 +53,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   }
   if (settings.detect_targets)
   {
-    markers.targets = findTargets(frame, regions_, settings);
+    markers.targets = findTargets(frame, regions_, markers.checkerboards, settings);
     watch.step("targets");
   }
   return markers;

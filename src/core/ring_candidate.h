@@ -22,7 +22,7 @@ struct RingCandidate
 };
 
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
-bool hasOwnBoundary(EdgelMap& map, const RingSeed& seed);
+bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
 
 /**
  * Grows a seed to a candidate: edgels give the family, the profile then says which boundaries there are.

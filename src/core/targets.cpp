@@ -1,6 +1,7 @@
 #include "outdoor_omr/targets.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "arc_seeds.h"
@@ -21,6 +22,13 @@ constexpr double MIN_UNREAD_DIAMETER = 30;  // of a target of three rings with u
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 {
   return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
+}
+
+bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
+{
+  return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
+    return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
+  });
 }
 
 double score(const RingCandidate& candidate)
@@ -96,7 +104,8 @@ Target toTarget(const RingCandidate& candidate)
 }
 }  // namespace
 
-std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const Settings& settings)
+std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
+                                const Settings& settings)
 {
   if (frame.bgr.empty())
   {
@@ -105,9 +114,10 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   EdgelMap map(frame.bgr);
   std::vector<RingCandidate> candidates;
   const auto is_taken = [&](const cv::Point2d& point) {
-    return std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
-      return candidate.evidence * candidate.visible > UNDISPUTED && contains(candidate, point);
-    });
+    return isOnBoard(point, boards) ||
+           std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
+             return candidate.evidence * candidate.visible > UNDISPUTED && contains(candidate, point);
+           });
   };
   const auto try_seed = [&](const RingSeed& seed, bool is_boundary) {
     RingCandidate candidate;
@@ -118,7 +128,7 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   };
   for (const RingSeed& seed : findRoundSeeds(regions.regions))
   {
-    if (!is_taken(seed.family.center) && hasOwnBoundary(map, seed))
+    if (!is_taken(seed.family.center) && hasOwnBoundary(map, frame.bgr, seed))
     {
       try_seed(seed, true);
     }

@@ -11,27 +11,18 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "detector_options.h"
+#include "image_files.h"
 #include "markers_json.h"
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/overlay.h"
-#include "outdoor_omr/settings.h"
 #include "parameter_table.h"
 
 namespace
 {
-enum ExitCode
-{
-  SUCCESS = 0,
-  IMAGE_FAILED = 1,  ///< at least one image could not be read or searched; the others were
-  FAILED = 2         ///< wrong arguments, no device, no output
-};
-
 struct Options
 {
-  std::string config;
-  std::string filter;
-  std::vector<std::string> set;
-  std::string device = "auto";
+  omr::DetectorOptions detector;
   std::string overlay;
   std::string json;
   bool list_devices = false;
@@ -44,52 +35,6 @@ struct Options
     return json == "-" || (json.empty() && overlay.empty());
   }
 };
-
-omr::Settings readSettings(const Options& options)
-{
-  omr::Settings settings;
-  if (!options.config.empty())
-  {
-    omr::loadSettings(settings, options.config);
-  }
-  if (!options.filter.empty())
-  {
-    omr::setParameter(settings, "filter", options.filter);
-  }
-  for (const std::string& assignment : options.set)
-  {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos)
-    {
-      throw std::invalid_argument("--set expects name=value, not '" + assignment + "'");
-    }
-    omr::setParameter(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
-  return settings;
-}
-
-/** The image, or std::invalid_argument with the reason. OpenCV turns it as its EXIF data ask. */
-cv::Mat readImage(const std::string& name)
-{
-  if (!std::filesystem::exists(name))
-  {
-    throw std::invalid_argument("there is no such file");
-  }
-  cv::Mat image;
-  try
-  {
-    image = cv::imread(name, cv::IMREAD_COLOR);
-  }
-  catch (const cv::Exception& error)
-  {
-    throw std::invalid_argument(error.err);
-  }
-  if (image.empty())
-  {
-    throw std::invalid_argument("not an image that can be read");
-  }
-  return image;
-}
 
 /** One file name an image, numbered where images of several folders have the same name. */
 std::vector<std::string> overlayNames(const std::vector<std::string>& images)
@@ -135,26 +80,6 @@ void writeOverlay(const std::string& file, const cv::Mat& picture)
   }
 }
 
-std::ofstream openJson(const std::string& name)
-{
-  std::ofstream file(name);
-  if (!file)
-  {
-    throw std::runtime_error("cannot write '" + name + "'");
-  }
-  return file;
-}
-
-void writeJson(std::ostream& stream, const nlohmann::ordered_json& json)
-{
-  // A file name need not be UTF-8; JSON must be.
-  stream << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
-  if (!stream)
-  {
-    throw std::runtime_error("cannot write the JSON output; is the disk full?");
-  }
-}
-
 void printSummary(const std::string& name, double milliseconds, const omr::Markers& markers)
 {
   std::cout << std::fixed << std::setprecision(1) << name << ": " << markers.checkerboards.size() << " checkerboards, "
@@ -193,7 +118,7 @@ void processImage(const Options& options, std::size_t index, const omr::Settings
 {
   using Clock = std::chrono::steady_clock;
   const std::string& name = options.images[index];
-  const cv::Mat image = readImage(name);
+  const cv::Mat image = omr::readImage(name);
   const Clock::time_point start = Clock::now();
   const omr::Markers markers = detector.detect(image, settings);
   const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -203,7 +128,7 @@ void processImage(const Options& options, std::size_t index, const omr::Settings
   }
   if (!options.json.empty())
   {
-    writeJson(json, omr::toJson(name, image.size(), milliseconds, markers));
+    omr::writeJson(json, omr::toJson(name, image.size(), milliseconds, markers));
   }
   else if (options.overlay.empty())
   {
@@ -211,15 +136,15 @@ void processImage(const Options& options, std::size_t index, const omr::Settings
   }
 }
 
-ExitCode detectAll(const Options& options)
+omr::ExitCode detectAll(const Options& options)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
-  const omr::Settings settings = readSettings(options);
-  omr::Detector detector(options.device);
+  const omr::Settings settings = options.detector.settings();
+  omr::Detector detector(options.detector.device);
   std::ofstream file;
   if (!options.json.empty() && options.json != "-")
   {
-    file = openJson(options.json);
+    file = omr::openOutput(options.json);
   }
   if (!options.overlay.empty())
   {
@@ -227,7 +152,7 @@ ExitCode detectAll(const Options& options)
   }
   std::ostream& json = file.is_open() ? file : std::cout;
   const std::vector<std::string> overlay_names = overlayNames(options.images);
-  ExitCode result = SUCCESS;
+  omr::ExitCode result = omr::SUCCESS;
   for (std::size_t i = 0; i < options.images.size(); ++i)
   {
     showProgress(options, i);
@@ -238,7 +163,7 @@ ExitCode detectAll(const Options& options)
     catch (const std::invalid_argument& error)
     {
       std::cerr << "omr_detect: " << options.images[i] << ": " << error.what() << std::endl;
-      result = IMAGE_FAILED;
+      result = omr::IMAGE_FAILED;
     }
   }
   showProgress(options, options.images.size());
@@ -258,28 +183,26 @@ void listDevices()
   }
 }
 
-ExitCode run(const Options& options)
+omr::ExitCode run(const Options& options)
 {
   if (options.list_devices)
   {
     listDevices();
-    return SUCCESS;
+    return omr::SUCCESS;
   }
   if (options.list_parameters)
   {
     std::cout << omr::parameterTable();
-    return SUCCESS;
+    return omr::SUCCESS;
   }
   return detectAll(options);
 }
+
 int parseAndRun(int argc, char** argv)
 {
   Options options;
   CLI::App app("Finds checkerboards and targets of concentric colour rings in images.");
-  app.add_option("--config", options.config, "yaml file of parameters");
-  app.add_option("--filter", options.filter, "prefilter: none, gaussian or median");
-  app.add_option("--set", options.set, "name=value of one parameter; may be repeated")->allow_extra_args(false);
-  app.add_option("--device", options.device, "auto, gpu, cpu, reference or part of a device's name");
+  options.detector.addTo(app);
   app.add_option("--overlay", options.overlay, "folder for pictures with the markers drawn");
   app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
   auto* devices = app.add_flag("--list-devices", options.list_devices, "names the OpenCL devices and ends");
@@ -299,7 +222,7 @@ int parseAndRun(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    return app.exit(error) == 0 ? SUCCESS : FAILED;
+    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
   }
 }
 }  // namespace
@@ -313,6 +236,6 @@ int main(int argc, char** argv)
   catch (const std::exception& error)
   {
     std::cerr << "omr_detect: " << error.what() << "\n";
-    return FAILED;
+    return omr::FAILED;
   }
 }

@@ -1,0 +1,57 @@
+#ifndef OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
+#define OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+namespace omr
+{
+/** What the position nodelet gets and gives, told on /diagnostics once a second. Any thread may call. */
+class PositionDiagnostics
+{
+ public:
+  /**
+   * @param nh         of the queue that reports.
+   * @param private_nh of the same queue.
+   * @param name       of the node.
+   */
+  PositionDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name);
+
+  void markersCame();
+  void cameraInfoCame();
+
+  /** An image was located. @param parts certain ones. @param ambiguous sightings. */
+  void located(int parts, int ambiguous);
+
+  /** Nothing could be said of an image. */
+  void refused(const std::string& reason);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  std::mutex mutex_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point last_markers_ = start_;
+  Clock::time_point last_camera_info_ = start_;
+  Clock::time_point last_match_ = start_;  // of markers and camera_info
+  std::string refusal_;                    // of the last image; empty: located
+  std::uint64_t images_ = 0;
+  std::uint64_t refused_ = 0;
+  int parts_ = 0;
+  int ambiguous_ = 0;
+
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace omr
+
+#endif

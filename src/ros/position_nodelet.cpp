@@ -1,0 +1,133 @@
+#include <message_filters/subscriber.h>
+#include <message_filters/time_synchronizer.h>
+#include <nodelet/nodelet.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "caught.h"
+#include "part_messages.h"
+#include "position_diagnostics.h"
+
+namespace omr
+{
+/** Markers of an image and the camera's calibration in, positions of parts out. */
+class PositionNodelet : public nodelet::Nodelet
+{
+ private:
+  using CheckerboardArray = outdoor_omr::CheckerboardArray;
+  using TargetArray = outdoor_omr::TargetArray;
+
+  // Images that may be at work between the camera and the detector's answer.
+  static constexpr int QUEUE = 30;
+
+  void onInit() override
+  {
+    const std::string error = caught([this] { start(); });
+    if (!error.empty())
+    {
+      NODELET_FATAL("The position of parts cannot start: %s", error.c_str());
+      throw std::runtime_error(error);
+    }
+  }
+
+  void start()
+  {
+    ros::NodeHandle& nh = getNodeHandle();
+    ros::NodeHandle& private_nh = getPrivateNodeHandle();
+    const auto file = private_nh.param<std::string>("parts", "");
+    if (file.empty())
+    {
+      throw std::invalid_argument(
+          "parameter ~parts: expected the path of a parts file; config/parts.yaml is an example");
+    }
+    parts_ = readParts(file);
+    const auto kind = private_nh.param<std::string>("image_kind", "raw");
+    if (kind != "raw" && kind != "rectified")
+    {
+      throw std::invalid_argument("parameter ~image_kind: expected raw or rectified, not '" + kind + "'");
+    }
+    kind_ = kind == "raw" ? ImageKind::RAW : ImageKind::RECTIFIED;
+    publish_tf_ = private_nh.param("publish_tf", true);
+    NODELET_INFO("%zu parts in %s, of %s images", parts_.size(), file.c_str(), kind.c_str());
+    diagnostics_ = std::make_unique<PositionDiagnostics>(nh, private_nh, getName());
+
+    publisher_ = private_nh.advertise<outdoor_omr::PartArray>("parts", 1);
+    markers_ = private_nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
+
+    checkerboards_.subscribe(nh, "checkerboards", QUEUE);
+    targets_.subscribe(nh, "targets", QUEUE);
+    camera_info_.subscribe(nh, "camera_info", QUEUE);
+    checkerboards_.registerCallback([this](const auto& /*message*/) { diagnostics_->markersCame(); });
+    camera_info_.registerCallback([this](const auto& /*message*/) { diagnostics_->cameraInfoCame(); });
+    matched_.connectInput(checkerboards_, targets_, camera_info_);
+    matched_.registerCallback(&PositionNodelet::receive, this);
+  }
+
+  void receive(const outdoor_omr::CheckerboardArrayConstPtr& checkerboards,
+               const outdoor_omr::TargetArrayConstPtr& targets, const sensor_msgs::CameraInfoConstPtr& camera_info)
+  {
+    const std::string error = caught([&] { locate(*checkerboards, *targets, *camera_info); });
+    if (!error.empty())
+    {
+      diagnostics_->refused(error);
+      if (error != complaint_)
+      {
+        NODELET_ERROR("No position of parts: %s", error.c_str());
+      }
+    }
+    complaint_ = error;
+  }
+
+  void locate(const CheckerboardArray& checkerboards, const TargetArray& targets,
+              const sensor_msgs::CameraInfo& camera_info)
+  {
+    const Camera camera(fromMessage(camera_info), kind_);
+    const cv::Size size(static_cast<int>(checkerboards.width), static_cast<int>(checkerboards.height));
+    if (camera.size() != size)
+    {
+      throw std::invalid_argument("camera_info is of " + std::to_string(camera.size().width) + " x " +
+                                  std::to_string(camera.size().height) + " px, the image has " +
+                                  std::to_string(size.width) + " x " + std::to_string(size.height));
+    }
+    const std::vector<Sighting> sightings =
+        locateParts(fromMessage(checkerboards), fromMessage(targets), parts_, camera);
+    const outdoor_omr::PartArray message = toMessage(checkerboards.header, sightings);
+    publisher_.publish(message);
+    if (markers_.getNumSubscribers() > 0)
+    {
+      markers_.publish(toMarkers(message, parts_));
+    }
+    for (const outdoor_omr::Part& part : message.parts)
+    {
+      if (publish_tf_)
+      {
+        broadcaster_.sendTransform(toTransform(message.header, part));
+      }
+    }
+    diagnostics_->located(static_cast<int>(message.parts.size()), static_cast<int>(message.ambiguous.size()));
+  }
+
+  std::vector<Part> parts_;
+  ImageKind kind_ = ImageKind::RAW;
+  bool publish_tf_ = true;
+  std::string complaint_;  // the last one, which is not repeated
+  std::unique_ptr<PositionDiagnostics> diagnostics_;
+  ros::Publisher publisher_;
+  ros::Publisher markers_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+
+  // Destroyed from the last to the first: the synchronizer lets go of its inputs, then they end, before all else.
+  message_filters::Subscriber<CheckerboardArray> checkerboards_;
+  message_filters::Subscriber<TargetArray> targets_;
+  message_filters::Subscriber<sensor_msgs::CameraInfo> camera_info_;
+  message_filters::TimeSynchronizer<CheckerboardArray, TargetArray, sensor_msgs::CameraInfo> matched_{QUEUE};
+};
+
+}  // namespace omr
+
+PLUGINLIB_EXPORT_CLASS(omr::PositionNodelet, nodelet::Nodelet)

@@ -1,0 +1,51 @@
+#include "image_files.h"
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+namespace omr
+{
+cv::Mat readImage(const std::string& name)
+{
+  if (!std::filesystem::exists(name))
+  {
+    throw std::invalid_argument("there is no such file");
+  }
+  cv::Mat image;
+  try
+  {
+    image = cv::imread(name, cv::IMREAD_COLOR);
+  }
+  catch (const cv::Exception& error)
+  {
+    throw std::invalid_argument(error.err);
+  }
+  if (image.empty())
+  {
+    throw std::invalid_argument("not an image that can be read");
+  }
+  return image;
+}
+
+std::ofstream openOutput(const std::string& name)
+{
+  std::ofstream file(name);
+  if (!file)
+  {
+    throw std::runtime_error("cannot write '" + name + "'");
+  }
+  return file;
+}
+
+void writeJson(std::ostream& stream, const nlohmann::ordered_json& json)
+{
+  // A file name need not be UTF-8; JSON must be.
+  stream << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
+  if (!stream)
+  {
+    throw std::runtime_error("cannot write the JSON output; is the disk full?");
+  }
+}
+
+}  // namespace omr

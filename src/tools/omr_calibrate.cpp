@@ -1,0 +1,167 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+#include <iomanip>
+#include <iostream>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "calibration.h"
+#include "detector_options.h"
+#include "image_files.h"
+#include "outdoor_omr/detector.h"
+#include "sheet.h"
+
+namespace
+{
+struct Options
+{
+  omr::DetectorOptions detector;
+  std::string checkerboard;
+  double square = 0;
+  std::string model = "plumb_bob";
+  std::string name = "camera";
+  std::string output;
+  std::string mrcal;
+  std::vector<std::string> images;
+};
+
+/** The seen boards of all images. */
+struct Session
+{
+  cv::Size size;                         // of the images
+  std::deque<omr::Checkerboard> boards;  // views point into it
+  std::vector<omr::CalibrationView> views;
+};
+
+long countSeen(const omr::Checkerboard& board)
+{
+  return std::count(board.inner_corners_seen.begin(), board.inner_corners_seen.end(), true);
+}
+
+std::string words(const cv::Size& size)
+{
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+/** Looks for the board in one image; of several the one with the most corners counts. */
+void addView(const std::string& name, const cv::Size& squares, const omr::Settings& settings, omr::Detector& detector,
+             Session& session)
+{
+  const cv::Mat image = omr::readImage(name);
+  if (!session.size.empty() && image.size() != session.size)
+  {
+    throw std::invalid_argument("the image has " + words(image.size()) + " pixels, those before it " +
+                                words(session.size));
+  }
+  session.size = image.size();
+  omr::CalibrationView view{name, nullptr};
+  for (const omr::Checkerboard& board : detector.detect(image, settings).checkerboards)
+  {
+    const bool fits = board.rows == squares.height && board.cols == squares.width && countSeen(board) >= 4;
+    if (fits && (view.board == nullptr || countSeen(board) > countSeen(*view.board)))
+    {
+      session.boards.push_back(board);
+      view.board = &session.boards.back();
+    }
+  }
+  session.views.push_back(view);
+}
+
+void printReport(const Session& session, const omr::Calibration& calibration)
+{
+  std::cout << std::fixed << std::setprecision(3);
+  std::size_t found = 0;
+  for (const omr::CalibrationView& view : session.views)
+  {
+    std::cout << view.image << ": ";
+    if (view.board == nullptr)
+    {
+      std::cout << "no such board\n";
+      continue;
+    }
+    std::cout << countSeen(*view.board) << " corners, RMS " << calibration.view_errors[found++] << " px\n";
+  }
+  std::cout << found << " of " << session.views.size() << " images, reprojection error: mean " << calibration.mean_error
+            << " px, RMS " << calibration.rms_error << " px\n";
+  std::cout << "focal length " << calibration.info.K[0] << ", " << calibration.info.K[4] << " px, principal point ("
+            << calibration.info.K[2] << ", " << calibration.info.K[5] << ")\n";
+  if (calibration.focal_sigma > 0)
+  {
+    std::cout << "standard deviation of the focal length " << calibration.focal_sigma * 100
+              << " %: as much of every distance along the ray\n";
+  }
+}
+
+omr::ExitCode calibrateAll(const Options& options)
+{
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
+  const omr::Settings settings = options.detector.settings();
+  const cv::Size squares = omr::parseCheckerboard(options.checkerboard);
+  omr::Detector detector(options.detector.device);
+  Session session;
+  omr::ExitCode result = omr::SUCCESS;
+  for (const std::string& name : options.images)
+  {
+    try
+    {
+      addView(name, squares, settings, detector, session);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      std::cerr << "omr_calibrate: " << name << ": " << error.what() << std::endl;
+      result = omr::IMAGE_FAILED;
+    }
+  }
+  if (!options.mrcal.empty())
+  {
+    std::ofstream file = omr::openOutput(options.mrcal);
+    omr::writeMrcalCorners(file, session.views);
+  }
+  const omr::Calibration calibration = omr::calibrate(session.views, options.square, session.size, options.model);
+  printReport(session, calibration);
+  if (!options.output.empty())
+  {
+    std::ofstream file = omr::openOutput(options.output);
+    omr::writeCameraInfo(file, calibration.info, options.name);
+  }
+  return result;
+}
+
+int parseAndRun(int argc, char** argv)
+{
+  Options options;
+  CLI::App app(
+      "Calibrates a camera from images of a printed checkerboard; docs/calibration.md tells how to take them.");
+  app.add_option("--checkerboard", options.checkerboard, "ROWSxCOLS squares, as 7x10")->required();
+  app.add_option("--square", options.square, "side of a square [m]")->required()->check(CLI::Range(0.001, 1.0));
+  app.add_option("--model", options.model, "plumb_bob (default), rational_polynomial or equidistant");
+  app.add_option("--name", options.name, "of the camera, in the file");
+  app.add_option("--output", options.output, "yaml file for camera_info_manager");
+  app.add_option("--mrcal", options.mrcal, "file for the corners, for mrcal-calibrate-cameras --corners-cache");
+  options.detector.addTo(app);
+  app.add_option("images", options.images, "image files")->required();
+  app.footer("Exit code: 0; 1 when an image could not be used; 2 when there is no calibration.");
+  try
+  {
+    app.parse(argc, argv);
+    return calibrateAll(options);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return parseAndRun(argc, argv);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "omr_calibrate: " << error.what() << "\n";
+    return omr::FAILED;
+  }
+}

@@ -1,0 +1,151 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "detector_options.h"
+#include "image_files.h"
+#include "outdoor_omr/detector.h"
+#include "outdoor_omr/locate.h"
+#include "parts_json.h"
+
+namespace
+{
+struct Options
+{
+  omr::DetectorOptions detector;
+  std::string camera;
+  std::string parts;
+  std::string json;
+  bool rectified = false;
+  std::vector<std::string> images;
+};
+
+/** Length of the longest half axis of the ellipsoid of the position that holds it in 95 of 100 cases [m]. */
+double uncertainty(const omr::Pose& pose)
+{
+  constexpr double CHI_SQUARE = 7.815;  // of three degrees of freedom
+  cv::Vec3d values;
+  cv::eigen(pose.covariance.get_minor<3, 3>(0, 0), values);
+  return std::sqrt(CHI_SQUARE * values[0]);
+}
+
+void printPart(const omr::PartPose& part)
+{
+  const cv::Vec3d position = part.pose.camera_part.translation();
+  const cv::Vec3d turn = part.pose.camera_part.rvec() * (180 / CV_PI);
+  std::cout << part.part << " at (" << std::setprecision(5) << position[0] << ", " << position[1] << ", " << position[2]
+            << ") m +- " << std::setprecision(2) << uncertainty(part.pose) * 1000 << " mm, turned by (" << turn[0]
+            << ", " << turn[1] << ", " << turn[2] << ") degrees, " << part.checkerboards.size() << " checkerboards, "
+            << part.targets.size() << " targets, reprojection error " << part.pose.rms_error << " px\n";
+}
+
+void printSummary(const std::string& image, const std::vector<omr::Sighting>& sightings)
+{
+  std::cout << std::fixed << image << ": " << sightings.size() << (sightings.size() == 1 ? " part\n" : " parts\n");
+  for (const omr::Sighting& sighting : sightings)
+  {
+    if (!sighting.certain())
+    {
+      std::cout << "  ambiguous; one of\n";
+    }
+    for (const omr::PartPose& candidate : sighting.candidates)
+    {
+      std::cout << (sighting.certain() ? "  " : "    ");
+      printPart(candidate);
+    }
+  }
+}
+
+std::string words(const cv::Size& size)
+{
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+omr::ExitCode locateAll(const Options& options)
+{
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
+  using Clock = std::chrono::steady_clock;
+  const omr::Settings settings = options.detector.settings();
+  const omr::Camera camera(omr::readCameraInfo(options.camera),
+                           options.rectified ? omr::ImageKind::RECTIFIED : omr::ImageKind::RAW);
+  const std::vector<omr::Part> parts = omr::readParts(options.parts);
+  omr::Detector detector(options.detector.device);
+  std::ofstream file;
+  if (!options.json.empty() && options.json != "-")
+  {
+    file = omr::openOutput(options.json);
+  }
+  omr::ExitCode result = omr::SUCCESS;
+  for (const std::string& name : options.images)
+  {
+    try
+    {
+      const cv::Mat image = omr::readImage(name);
+      if (image.size() != camera.size())
+      {
+        throw std::invalid_argument("the image has " + words(image.size()) + " pixels, the calibration in '" +
+                                    options.camera + "' is of " + words(camera.size()));
+      }
+      const Clock::time_point start = Clock::now();
+      const omr::Markers markers = detector.detect(image, settings);
+      const std::vector<omr::Sighting> sightings =
+          omr::locateParts(markers.checkerboards, markers.targets, parts, camera);
+      const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      if (options.json.empty())
+      {
+        printSummary(name, sightings);
+      }
+      else
+      {
+        omr::writeJson(file.is_open() ? file : std::cout, omr::toJson(name, image.size(), milliseconds, sightings));
+      }
+    }
+    catch (const std::invalid_argument& error)
+    {
+      std::cerr << "omr_position: " << name << ": " << error.what() << std::endl;
+      result = omr::IMAGE_FAILED;
+    }
+  }
+  return result;
+}
+
+int parseAndRun(int argc, char** argv)
+{
+  Options options;
+  CLI::App app("Finds the parts of a parts file in images of a calibrated camera and says where they are.");
+  app.add_option("--camera", options.camera, "yaml file of camera_calibration or camera_info_manager")->required();
+  app.add_option("--parts", options.parts, "yaml file of parts and their markers, as config/parts.yaml")->required();
+  app.add_flag("--rectified", options.rectified, "the images are rectified: use P, not K and D");
+  app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
+  options.detector.addTo(app);
+  app.add_option("images", options.images, "image files")->required();
+  app.footer(
+      "Exit code: 0; 1 when an image could not be read or has another size than the calibration; 2 when nothing "
+      "could be done.");
+  try
+  {
+    app.parse(argc, argv);
+    return locateAll(options);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return parseAndRun(argc, argv);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "omr_position: " << error.what() << "\n";
+    return omr::FAILED;
+  }
+}

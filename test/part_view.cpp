@@ -1,0 +1,112 @@
+#include "part_view.h"
+
+#include <algorithm>
+
+namespace omr
+{
+namespace test
+{
+CameraInfo cameraInfo(const std::string& model)
+{
+  CameraInfo info;
+  info.width = 1920;
+  info.height = 1080;
+  info.distortion_model = model;
+  info.K = {1600, 0, 950, 0, 1605, 530, 0, 0, 1};
+  info.P = {1500, 0, 955, 0, 0, 1500, 535, 0, 0, 0, 1, 0};
+  if (model == "plumb_bob")
+  {
+    info.D = {-0.2, 0.1, 0.001, -0.0005, -0.02};
+  }
+  else if (model == "rational_polynomial")
+  {
+    info.D = {0.3, 0.1, 0.001, -0.0005, 0.02, 0.5, 0.1, 0.01};
+  }
+  else
+  {
+    info.D = {-0.02, 0.01, -0.005, 0.001};
+  }
+  return info;
+}
+
+cv::Affine3d poseAt(double x, double y, double z, double tilt_x, double tilt_y, double turn)
+{
+  const double degree = CV_PI / 180;
+  const cv::Affine3d about_x(cv::Vec3d(tilt_x * degree, 0, 0));
+  const cv::Affine3d about_y(cv::Vec3d(0, tilt_y * degree, 0));
+  const cv::Affine3d about_z(cv::Vec3d(0, 0, turn * degree));
+  return cv::Affine3d((about_x * about_y * about_z).rotation(), cv::Vec3d(x, y, z));
+}
+
+PartCheckerboard flatBoard(int rows, int cols, double square)
+{
+  PartCheckerboard board;
+  board.rows = rows;
+  board.cols = cols;
+  board.square = square;
+  board.pose = cv::Affine3d::Identity();
+  return board;
+}
+
+PartView::PartView(const Camera& camera, double noise_px, std::uint64_t seed)
+    : camera_(camera), noise_px_(noise_px), random_(seed)
+{
+}
+
+cv::Point2d PartView::see(const cv::Point3d& point, const cv::Affine3d& camera_part)
+{
+  const cv::Point2d pixel = camera_.project({camera_part * point}).front();
+  return pixel + cv::Point2d(random_.gaussian(noise_px_), random_.gaussian(noise_px_));
+}
+
+void PartView::add(const PartCheckerboard& board, const cv::Affine3d& camera_part, bool half_turn)
+{
+  addSection(board, camera_part, cv::Rect(0, 0, board.cols, board.rows));
+  Checkerboard& seen = checkerboards.back();
+  seen.size_certain = true;
+  if (half_turn)
+  {
+    std::reverse(seen.inner_corners.begin(), seen.inner_corners.end());
+  }
+}
+
+void PartView::addSection(const PartCheckerboard& board, const cv::Affine3d& camera_part, const cv::Rect& squares)
+{
+  const std::vector<cv::Point3d> corners = innerCorners(board);
+  Checkerboard seen;
+  seen.rows = squares.height;
+  seen.cols = squares.width;
+  seen.size_certain = false;
+  for (int row = squares.y; row < squares.y + squares.height - 1; ++row)
+  {
+    for (int col = squares.x; col < squares.x + squares.width - 1; ++col)
+    {
+      seen.inner_corners.emplace_back(see(corners[row * (board.cols - 1) + col], camera_part));
+    }
+  }
+  seen.inner_corners_seen.assign(seen.inner_corners.size(), true);
+  checkerboards.push_back(seen);
+}
+
+void PartView::add(const PartTarget& target, const cv::Affine3d& camera_part, const std::string& colors)
+{
+  Target seen;
+  seen.colors = colors.empty() ? target.colors : colors;
+  seen.center = see(target.center, camera_part);
+  targets.push_back(seen);
+}
+
+void PartView::add(const Part& part, const cv::Affine3d& camera_part, bool half_turn)
+{
+  for (const PartCheckerboard& board : part.checkerboards)
+  {
+    add(board, camera_part, half_turn);
+  }
+  for (const PartTarget& target : part.targets)
+  {
+    add(target, camera_part);
+  }
+}
+
+}  // namespace test
+}  // namespace omr

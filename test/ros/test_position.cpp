@@ -1,0 +1,225 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <outdoor_omr/PartArray.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <tf2_ros/transform_listener.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/affine.hpp>
+
+#include "render.h"
+#include "ros_test.h"
+
+using outdoor_omr::PartArray;
+using ros_test::Listener;
+using ros_test::toMessage;
+using ros_test::waitFor;
+
+namespace
+{
+const cv::Size SIZE(800, 600);
+const cv::Matx33d MATRIX(900, 0, 399.5, 0, 900, 299.5, 0, 0, 1);
+constexpr double SQUARE = 0.03;  // [m], as in position_parts.yaml
+
+sensor_msgs::CameraInfo cameraInfo()
+{
+  sensor_msgs::CameraInfo info;
+  info.width = SIZE.width;
+  info.height = SIZE.height;
+  info.distortion_model = "plumb_bob";
+  info.D.assign(5, 0.);
+  for (int i = 0; i < 9; ++i)
+  {
+    info.K[i] = MATRIX.val[i];
+    info.P[4 * (i / 3) + i % 3] = MATRIX.val[i];
+  }
+  return info;
+}
+
+/** The camera's view of a flat board whose frame is in its middle. */
+cv::Mat view(int rows, int cols, const cv::Affine3d& camera_board)
+{
+  const cv::Matx33d rotation = camera_board.rotation();
+  const cv::Vec3d corner = camera_board * cv::Vec3d(-0.5 * cols * SQUARE, -0.5 * rows * SQUARE, 0);
+  cv::Matx33d squares_to_camera;
+  for (int i = 0; i < 3; ++i)
+  {
+    squares_to_camera(i, 0) = rotation(i, 0) * SQUARE;
+    squares_to_camera(i, 1) = rotation(i, 1) * SQUARE;
+    squares_to_camera(i, 2) = corner[i];
+  }
+  omr::test::Render render(SIZE);
+  render.addBoard(rows, cols, MATRIX * squares_to_camera);
+  return render.picture();
+}
+
+class Position : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    ASSERT_TRUE(waitFor([this] {
+      return image_.getNumSubscribers() > 0 && camera_info_.getNumSubscribers() > 0 && parts_.connected() &&
+             markers_.connected();
+    })) << "detector or position nodelet did not start";
+  }
+
+  /** Shows a picture with its camera_info. */
+  void show(const cv::Mat& picture, sensor_msgs::CameraInfo info)
+  {
+    const sensor_msgs::ImagePtr image = toMessage(picture, ros::Time(ros::WallTime::now().toSec()));
+    info.header = image->header;
+    camera_info_.publish(info);
+    image_.publish(image);
+  }
+
+  /** Shows it until there is an answer. @return the last one; empty if none comes. */
+  PartArray locate(const cv::Mat& picture)
+  {
+    const std::size_t before = parts_.count();
+    if (!waitFor([&] {
+          show(picture, cameraInfo());
+          return waitFor([&] { return parts_.count() > before; }, 2);
+        }))
+    {
+      return {};
+    }
+    return *parts_.messages().back();
+  }
+
+  /** Shows it until the position nodelet's diagnostics contain the text. @return the last ones. */
+  std::string diagnosticsAfter(const cv::Mat& picture, const sensor_msgs::CameraInfo& info, const std::string& text)
+  {
+    std::string last;
+    waitFor([&] {
+      show(picture, info);
+      waitFor([] { return false; }, 0.5);
+      for (const auto& array : diagnostics_.messages())
+      {
+        for (const diagnostic_msgs::DiagnosticStatus& status : array->status)
+        {
+          last = status.name == "position: position of parts" ? status.message : last;
+        }
+      }
+      return last.find(text) != std::string::npos;
+    });
+    return last;
+  }
+
+  ros::NodeHandle nh_;
+  ros::Publisher image_ = nh_.advertise<sensor_msgs::Image>("/camera/image", 1);
+  ros::Publisher camera_info_ = nh_.advertise<sensor_msgs::CameraInfo>("/camera/camera_info", 1);
+  Listener<PartArray> parts_{"/position/parts"};
+  Listener<visualization_msgs::MarkerArray> markers_{"/position/markers"};
+  Listener<diagnostic_msgs::DiagnosticArray> diagnostics_{"/diagnostics"};
+};
+
+const cv::Affine3d POSE(cv::Vec3d(0.3, -0.5, 0.2), cv::Vec3d(0.05, -0.03, 0.9));
+
+TEST_F(Position, ofAPlateAsMessageTransformAndMarkers)
+{
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  const cv::Mat picture = view(7, 10, POSE);
+  PartArray answer;
+  ASSERT_TRUE(waitFor([&] {  // the listener may connect after the first answers
+    answer = locate(picture);
+    return waitFor([&] { return buffer.canTransform("camera", "plate", answer.header.stamp); }, 0.5);
+  }));
+  ASSERT_EQ(1U, answer.parts.size());
+  EXPECT_TRUE(answer.ambiguous.empty());
+  const outdoor_omr::Part& part = answer.parts.front();
+  EXPECT_EQ("plate", part.name);
+  EXPECT_EQ("camera", answer.header.frame_id);
+  EXPECT_EQ(std::vector<std::uint32_t>{0}, part.checkerboards);
+  EXPECT_EQ(54U, part.points);
+  EXPECT_LT(part.reprojection_error, 0.3);
+  EXPECT_NEAR(0.05, part.pose.pose.position.x, 0.0005);
+  EXPECT_NEAR(-0.03, part.pose.pose.position.y, 0.0005);
+  EXPECT_NEAR(0.9, part.pose.pose.position.z, 0.001);
+  EXPECT_GT(part.pose.covariance[0], 0);
+  EXPECT_LT(std::sqrt(part.pose.covariance[14]), 0.001);
+
+  const auto transform = buffer.lookupTransform("camera", "plate", answer.header.stamp).transform;
+  EXPECT_NEAR(0.9, transform.translation.z, 0.001);
+  const geometry_msgs::Quaternion& q = transform.rotation;
+  const double angle = cv::norm(POSE.rvec());
+  const cv::Vec3d axis = POSE.rvec() * (1 / angle);
+  const double cosine = std::cos(angle / 2) * q.w + std::sin(angle / 2) * axis.dot(cv::Vec3d(q.x, q.y, q.z));
+  EXPECT_LT(2 * std::acos(std::min(1., std::abs(cosine))), 0.2 * CV_PI / 180);
+
+  ASSERT_TRUE(waitFor([&] { return markers_.count() > 0; }));
+  // Deleting the old ones, outline, axes, name, ellipsoid.
+  EXPECT_EQ(5U, markers_.messages().back()->markers.size());
+}
+
+TEST_F(Position, thatIsAmbiguousIsReportedAsSuchAndNotInTf)
+{
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  const PartArray answer = locate(view(7, 9, POSE));
+  EXPECT_TRUE(answer.parts.empty());
+  ASSERT_EQ(1U, answer.ambiguous.size());
+  EXPECT_EQ(2U, answer.ambiguous.front().candidates.size());
+  const cv::Mat plate = view(7, 10, POSE);
+  ASSERT_TRUE(waitFor([&] {  // comes after what the first would have sent
+    return locate(plate).parts.size() == 1 && buffer.canTransform("camera", "plate", ros::Time(0));
+  }));
+  EXPECT_FALSE(buffer.canTransform("camera", "sign", ros::Time(0)));
+}
+
+TEST_F(Position, isNotGivenWithoutACalibration)
+{
+  const cv::Mat picture = view(7, 10, POSE);
+  ASSERT_EQ(1U, locate(picture).parts.size());
+  EXPECT_EQ("Parts: 1.", diagnosticsAfter(picture, cameraInfo(), "Parts: 1."));
+  const std::size_t before = parts_.count();
+
+  sensor_msgs::CameraInfo uncalibrated = cameraInfo();
+  uncalibrated.K.fill(0);
+  EXPECT_NE(std::string::npos, diagnosticsAfter(picture, uncalibrated, "not calibrated").find("not calibrated"));
+
+  sensor_msgs::CameraInfo other = cameraInfo();
+  other.width = 1600;
+  other.height = 1200;
+  const std::string size = "camera_info is of 1600 x 1200 px, the image has 800 x 600";
+  EXPECT_EQ(size, diagnosticsAfter(picture, other, size));
+
+  sensor_msgs::CameraInfo unknown = cameraInfo();
+  unknown.distortion_model = "barrel";
+  EXPECT_NE(std::string::npos, diagnosticsAfter(picture, unknown, "barrel").find("barrel"));
+  EXPECT_EQ(before, parts_.count());
+
+  EXPECT_EQ("Parts: 1.", diagnosticsAfter(picture, cameraInfo(), "Parts: 1."));
+}
+
+TEST_F(Position, saysWhenCameraInfoIsMissing)
+{
+  const cv::Mat picture = view(7, 10, POSE);
+  const std::size_t before = parts_.count();
+  std::string last;
+  EXPECT_TRUE(waitFor([&] {
+    image_.publish(toMessage(picture, ros::Time(ros::WallTime::now().toSec())));
+    waitFor([] { return false; }, 0.5);
+    for (const auto& array : diagnostics_.messages())
+    {
+      for (const diagnostic_msgs::DiagnosticStatus& status : array->status)
+      {
+        last = status.name == "position: position of parts" ? status.message : last;
+      }
+    }
+    return last.find("No camera_info for") == 0;
+  })) << last;
+  EXPECT_EQ(before, parts_.count());
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_position");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
