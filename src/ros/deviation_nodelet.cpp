@@ -1,4 +1,3 @@
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
 #include <outdoor_omr/DeviationArray.h>
 #include <outdoor_omr/PartArray.h>
@@ -17,6 +16,7 @@
 #include "caught.h"
 #include "outdoor_omr/deviation.h"
 #include "pose_messages.h"
+#include "status_report.h"
 
 namespace omr
 {
@@ -67,7 +67,7 @@ std::string reasonWithout(const std::string& part, const outdoor_omr::PartArray&
                        [&](const outdoor_omr::Part& candidate) { return candidate.name == part; });
   };
   return std::any_of(parts.ambiguous.begin(), parts.ambiguous.end(), is_candidate)
-             ? "ambiguous: the markers in view fit several parts or poses"
+             ? "ambiguous: several parts or poses fit what is seen"
              : "not in view";
 }
 }  // namespace
@@ -104,13 +104,8 @@ class DeviationNodelet : public nodelet::Nodelet
     }
     patience_ = ros::Duration(timeout);
     NODELET_INFO("%zu goals in %s", goals_.size(), file.c_str());
-    updater_ = std::make_unique<diagnostic_updater::Updater>(nh, private_nh, getName());
-    updater_->setHardwareID("none");
-    updater_->add("deviation of parts", this, &DeviationNodelet::report);
-    timer_ = nh.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent& /*event*/) {
-      const std::string error = caught([this] { updater_->force_update(); });
-      NODELET_ERROR_COND(!error.empty(), "diagnostics: %s", error.c_str());
-    });
+    report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
+                                             [this](auto& status) { report(status); });
     publisher_ = private_nh.advertise<outdoor_omr::DeviationArray>("deviations", 1);
     parts_ = nh.subscribe<outdoor_omr::PartArray>(
         "parts", 10, [this](const outdoor_omr::PartArrayConstPtr& parts) { receive(*parts); });
@@ -136,7 +131,7 @@ class DeviationNodelet : public nodelet::Nodelet
     publisher_.publish(message);
     const std::lock_guard<std::mutex> lock(mutex_);
     last_ = message;
-    last_time_ = ros::WallTime::now();
+    last_time_ = ros::SteadyTime::now();
   }
 
   void measure(const Goal& goal, const outdoor_omr::PartArray& parts, outdoor_omr::Deviation& message) const
@@ -168,7 +163,7 @@ class DeviationNodelet : public nodelet::Nodelet
   void report(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const double silence = (ros::WallTime::now() - last_time_).toSec();
+    const double silence = (ros::SteadyTime::now() - last_time_).toSec();
     int measured = 0;
     for (const outdoor_omr::Deviation& deviation : last_.deviations)
     {
@@ -190,14 +185,13 @@ class DeviationNodelet : public nodelet::Nodelet
   ros::Duration patience_;
   std::mutex mutex_;
   outdoor_omr::DeviationArray last_;
-  ros::WallTime last_time_ = ros::WallTime::now();
-  std::unique_ptr<diagnostic_updater::Updater> updater_;
+  ros::SteadyTime last_time_ = ros::SteadyTime::now();
   ros::Publisher publisher_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};  // has a thread of its own: a wait for TF does not keep TF away
 
   // Destroyed first: no callback outlives what it uses.
-  ros::WallTimer timer_;
+  std::unique_ptr<StatusReport> report_;
   ros::Subscriber parts_;
 };
 
