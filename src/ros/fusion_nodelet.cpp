@@ -71,8 +71,19 @@ class FusionNodelet : public nodelet::Nodelet
       throw std::invalid_argument("parameter ~frame: expected the TF frame to fuse in, as 'base', not '" + frame_ +
                                   "'");
     }
-    sigma_.position = readNumber(private_nh, "camera_position_sigma", 0.001, 1);
-    sigma_.rotation = readNumber(private_nh, "camera_rotation_sigma", 0.0005, 1);
+    const auto file = private_nh.param<std::string>("parts", "");
+    if (!file.empty())
+    {
+      descriptions_ = readParts(file);
+    }
+    settings_.sigma.position = readNumber(private_nh, "camera_position_sigma", 0.001, 1);
+    settings_.sigma.rotation = readNumber(private_nh, "camera_rotation_sigma", 0.0005, 1);
+    settings_.min_cameras = private_nh.param("min_cameras", 1);
+    if (settings_.min_cameras < 1 || settings_.min_cameras > static_cast<int>(topics_.size()))
+    {
+      throw std::invalid_argument("parameter ~min_cameras: expected 1 to " + std::to_string(topics_.size()) +
+                                  ", the number of inputs, not " + std::to_string(settings_.min_cameras));
+    }
     const double patience = readNumber(private_nh, "patience", 0.1, 10);
     tf_timeout_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, 10));
     publish_tf_ = private_nh.param("publish_tf", true);
@@ -81,6 +92,7 @@ class FusionNodelet : public nodelet::Nodelet
     NODELET_INFO("%zu cameras, fused in %s", topics_.size(), frame_.c_str());
 
     parts_ = private_nh.advertise<outdoor_omr::PartArray>("parts", 1);
+    markers_ = private_nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
     fusions_ = private_nh.advertise<outdoor_omr::FusionArray>("fusions", 1);
     report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "fusion of cameras", "none",
                                              [this](auto& status) { report(status); });
@@ -130,15 +142,20 @@ class FusionNodelet : public nodelet::Nodelet
     {
       header.stamp = std::max(header.stamp, view.header.stamp);
       // A camera that TF cannot place costs what it alone sees.
-      unplaced_ += caught([&] { cameras.push_back({view, placeOf(view.header)}); });
+      const std::string error = caught([&] { cameras.push_back({view, placeOf(view.header)}); });
+      unplaced_ += (error.empty() || unplaced_.empty() ? "" : "; ") + error;
     }
     if (cameras.empty())
     {
       throw std::runtime_error(unplaced_);
     }
-    const FusedViews fused = fuseViews(cameras, header, sigma_);
+    const FusedViews fused = fuseViews(cameras, header, settings_);
     parts_.publish(fused.parts);
     fusions_.publish(fused.report);
+    if (markers_.getNumSubscribers() > 0)
+    {
+      markers_.publish(toMarkers(fused.parts, descriptions_));
+    }
     if (publish_tf_)
     {
       for (const outdoor_omr::Part& part : fused.parts.parts)
@@ -169,11 +186,13 @@ class FusionNodelet : public nodelet::Nodelet
       silent += silence > PATIENCE ? " " + topics_[camera] : "";
     }
     std::string contradicted;
+    std::string too_few;
     for (const outdoor_omr::Fusion& fusion : last_.report.parts)
     {
       status.addf(fusion.part, "%zu cameras, chi square %.1f of %u degrees of freedom", fusion.frame_ids.size(),
                   fusion.chi_square, fusion.degrees_of_freedom);
       contradicted += fusion.agree == 0 ? " " + fusion.part : "";
+      too_few += static_cast<int>(fusion.frame_ids.size()) < settings_.min_cameras ? " " + fusion.part : "";
     }
     if (!complaint_.empty() || !unplaced_.empty())
     {
@@ -183,6 +202,11 @@ class FusionNodelet : public nodelet::Nodelet
     {
       status.summary(DiagnosticStatus::ERROR, "Cameras contradict each other on" + contradicted +
                                                   ": has one been moved? is its transform right?");
+    }
+    else if (!too_few.empty())
+    {
+      status.summaryf(DiagnosticStatus::WARN, "Seen by fewer than %d cameras, not published:%s", settings_.min_cameras,
+                      too_few.c_str());
     }
     else if (!silent.empty())
     {
@@ -196,7 +220,8 @@ class FusionNodelet : public nodelet::Nodelet
 
   std::vector<std::string> topics_;
   std::string frame_;
-  CameraSigma sigma_;
+  std::vector<Part> descriptions_;  // for the markers; empty: they show nothing
+  FusionSettings settings_;
   ros::Duration tf_timeout_;
   bool publish_tf_ = true;
   const ros::SteadyTime start_ = ros::SteadyTime::now();
@@ -209,6 +234,7 @@ class FusionNodelet : public nodelet::Nodelet
 
   ros::Publisher parts_;
   ros::Publisher fusions_;
+  ros::Publisher markers_;
   tf2_ros::TransformBroadcaster broadcaster_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};

@@ -63,7 +63,8 @@ outdoor_omr::Fusion reportOf(const std::vector<SeenPart>& seen, const FusedPose&
 }
 }  // namespace
 
-FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Header& header, const CameraSigma& sigma)
+FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Header& header,
+                     const FusionSettings& settings)
 {
   FusedViews answer;
   answer.parts.header = answer.report.header = header;
@@ -72,7 +73,7 @@ FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Heade
   {
     for (const outdoor_omr::Part& part : view.parts.parts)
     {
-      certain[part.name].push_back(see(view, part, sigma));
+      certain[part.name].push_back(see(view, part, settings.sigma));
     }
   }
   for (const auto& [name, seen] : certain)
@@ -84,7 +85,10 @@ FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Heade
     answer.report.parts.push_back(reportOf(seen, fused));
     if (fused.agree)
     {
-      answer.parts.parts.push_back(joined(seen, fused));
+      if (static_cast<int>(seen.size()) >= settings.min_cameras)
+      {
+        answer.parts.parts.push_back(joined(seen, fused));
+      }
       continue;
     }
     answer.parts.ambiguous.emplace_back();
@@ -102,7 +106,7 @@ FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Heade
       {
         if (certain.count(candidate.name) == 0)
         {
-          shared.candidates.push_back(see(view, candidate, sigma).part);
+          shared.candidates.push_back(see(view, candidate, settings.sigma).part);
         }
       }
       if (!shared.candidates.empty())

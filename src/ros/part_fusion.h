@@ -19,6 +19,12 @@ struct CameraView
   cv::Affine3d frame_camera;  ///< X_frame = frame_camera * X_camera, in the frame that the cameras share
 };
 
+struct FusionSettings
+{
+  CameraSigma sigma;    ///< of where the cameras stand
+  int min_cameras = 1;  ///< a part that fewer are certain of is not published
+};
+
 struct FusedViews
 {
   outdoor_omr::PartArray parts;  ///< in the shared frame; indices of markers are left out
@@ -26,15 +32,15 @@ struct FusedViews
 };
 
 /**
- * Combines what cameras see at one time. A part that one camera is certain of is certain; where several are and
- * contradict each other, all of them are candidates of an ambiguous sighting. What no camera is certain of stays
+ * Combines what cameras see at one time. A part that enough cameras are certain of is certain; where they contradict
+ * each other, all of them are candidates of an ambiguous sighting. What no camera is certain of stays
  * ambiguous, as each of them reported it.
  *
  * @param header of the answer: the time, and the shared frame.
- * @param sigma  of where the cameras stand.
  * @throws std::invalid_argument for a pose or covariance that is none.
  */
-FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Header& header, const CameraSigma& sigma);
+FusedViews fuseViews(const std::vector<CameraView>& views, const std_msgs::Header& header,
+                     const FusionSettings& settings);
 
 }  // namespace omr
 

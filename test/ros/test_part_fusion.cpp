@@ -16,7 +16,7 @@ using outdoor_omr::PartArray;
 
 namespace
 {
-const omr::CameraSigma SIGMA{0.001, 0.0005};
+const omr::FusionSettings SETTINGS{{0.001, 0.0005}, 1};
 
 /** A part 1 m before the camera, a millimetre uncertain. */
 Part partAt(const std::string& name, double x)
@@ -52,7 +52,7 @@ TEST(PartFusion, placesAndJoinsWhatCamerasSee)
 {
   const FusedViews fused = fuseViews({viewFrom("left", -0.2, {partAt("plate", 0.2), partAt("pipe", 0)}),
                                       viewFrom("right", 0.3, {partAt("plate", -0.298)})},
-                                     base(), SIGMA);
+                                     base(), SETTINGS);
   EXPECT_EQ(fused.parts.header.frame_id, "base");
   EXPECT_EQ(fused.parts.header.stamp, ros::Time(7));
   EXPECT_TRUE(fused.parts.ambiguous.empty());
@@ -79,7 +79,7 @@ TEST(PartFusion, placesAndJoinsWhatCamerasSee)
 TEST(PartFusion, ofContradictionsIsNoAverage)
 {
   const FusedViews fused = fuseViews(
-      {viewFrom("left", 0, {partAt("plate", 0)}), viewFrom("right", 0, {partAt("plate", 0.05)})}, base(), SIGMA);
+      {viewFrom("left", 0, {partAt("plate", 0)}), viewFrom("right", 0, {partAt("plate", 0.05)})}, base(), SETTINGS);
   EXPECT_TRUE(fused.parts.parts.empty());
   ASSERT_EQ(fused.parts.ambiguous.size(), 1U);
   ASSERT_EQ(fused.parts.ambiguous[0].candidates.size(), 2U);
@@ -94,7 +94,7 @@ TEST(PartFusion, takesTheCertainCameraWhereAnotherIsNot)
   unsure.parts.ambiguous.resize(2);
   unsure.parts.ambiguous[0].candidates = {partAt("plate", 0), partAt("plate", 0.1)};
   unsure.parts.ambiguous[1].candidates = {partAt("sign", 0), partAt("sign", 0.1)};
-  const FusedViews fused = fuseViews({viewFrom("left", 0, {partAt("plate", 0.3)}), unsure}, base(), SIGMA);
+  const FusedViews fused = fuseViews({viewFrom("left", 0, {partAt("plate", 0.3)}), unsure}, base(), SETTINGS);
   ASSERT_EQ(fused.parts.parts.size(), 1U);
   EXPECT_NEAR(fused.parts.parts[0].pose.pose.position.x, 0.3, 1e-9);
   ASSERT_EQ(fused.parts.ambiguous.size(), 1U);
@@ -102,13 +102,26 @@ TEST(PartFusion, takesTheCertainCameraWhereAnotherIsNot)
   EXPECT_NEAR(fused.parts.ambiguous[0].candidates.at(1).pose.pose.position.x, 0.4, 1e-9);
 }
 
+TEST(PartFusion, publishesNoPartThatTooFewCamerasSee)
+{
+  omr::FusionSettings two = SETTINGS;
+  two.min_cameras = 2;
+  const FusedViews fused = fuseViews(
+      {viewFrom("left", 0, {partAt("plate", 0), partAt("pipe", 0.5)}), viewFrom("right", 0, {partAt("plate", 0)})},
+      base(), two);
+  ASSERT_EQ(fused.parts.parts.size(), 1U);
+  EXPECT_EQ(fused.parts.parts[0].name, "plate");
+  EXPECT_TRUE(fused.parts.ambiguous.empty());
+  EXPECT_EQ(fused.report.parts.size(), 2U);
+}
+
 TEST(PartFusion, refusesPosesThatAreNone)
 {
   Part part = partAt("plate", 0);
   part.pose.pose.orientation.w = 0;  // never filled in
-  EXPECT_THROW(fuseViews({viewFrom("left", 0, {part})}, base(), SIGMA), std::invalid_argument);
+  EXPECT_THROW(fuseViews({viewFrom("left", 0, {part})}, base(), SETTINGS), std::invalid_argument);
   part = partAt("plate", std::nan(""));
-  EXPECT_THROW(fuseViews({viewFrom("left", 0, {part})}, base(), SIGMA), std::invalid_argument);
+  EXPECT_THROW(fuseViews({viewFrom("left", 0, {part})}, base(), SETTINGS), std::invalid_argument);
 }
 
 PartArray viewAt(double stamp)
