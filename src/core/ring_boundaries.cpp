@@ -18,7 +18,7 @@ constexpr double MIDDLE = .4;           // of a ring: from here to 1 - MIDDLE
 constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
 constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
 constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
-constexpr double TURN = -.3;            // cosine between the slopes of two edges of a narrow ring
+constexpr double TURN = .5;             // cosine between the slopes of two edges of a narrow ring
 constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
 constexpr double SMALL_RADIUS = 3;      // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
@@ -26,6 +26,12 @@ constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target ma
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
 constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
+
+// Cameras and JPEG blur hues over several pixels: beside an edge the hue changes once more, faintly and without edgels.
+constexpr double BLEEDING = 6;               // reach of that [px]
+constexpr double BLED_CONTRAST = .7;         // most, relative to the edge's
+constexpr double LARGEST_BLED_CONTRAST = .45;
+constexpr double MIN_FLANK_SUPPORT = .75;    // by edgels, of a boundary that may be such a change
 
 int bits(AngleBins mask)
 {
@@ -210,6 +216,18 @@ Boundary measure(const RingProfile& profile, const AngularSupport& support, cons
   return boundary;
 }
 
+/** Whether a boundary may be only the blurred hue of a stronger one beside it. */
+bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
+{
+  const Boundary& boundary = boundaries[k];
+  const auto is_stronger = [&](const Boundary& other) {
+    return std::abs(other.radius - boundary.radius) < BLEEDING && boundary.contrast < BLED_CONTRAST * other.contrast;
+  };
+  return boundary.contrast < LARGEST_BLED_CONTRAST &&
+         ((k > 0 && is_stronger(boundaries[k - 1])) ||
+          (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
+}
+
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
 double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {
@@ -218,6 +236,11 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
   const double least_contrast = MIN_CONTRAST * (1 + SMALL_RADIUS / boundary.radius);
   double result =
       std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
+  if (isBesideStronger(boundaries, k))
+  {
+    const double supported = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
+    result = std::min(result, supported / MIN_FLANK_SUPPORT);
+  }
   if (k > 0 && k + 1 == boundaries.size())
   {
     // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.
