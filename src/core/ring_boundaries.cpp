@@ -31,7 +31,8 @@ constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
 constexpr double BLEEDING = 6;               // reach of that [px]
 constexpr double BLED_CONTRAST = .7;         // most, relative to the edge's
 constexpr double LARGEST_BLED_CONTRAST = .45;
-constexpr double MIN_FLANK_SUPPORT = .75;    // by edgels, of a boundary that may be such a change
+constexpr double MIN_FLANK_SUPPORT = .75;    // by edgels, of a boundary that may be such a change, or else
+constexpr double MIN_FLANK_AGREEMENT = .92;  // times coherence
 
 int bits(AngleBins mask)
 {
@@ -239,7 +240,8 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
   if (isBesideStronger(boundaries, k))
   {
     const double supported = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
-    result = std::min(result, supported / MIN_FLANK_SUPPORT);
+    result = std::min(result, std::max(supported / MIN_FLANK_SUPPORT,
+                                       boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
   }
   if (k > 0 && k + 1 == boundaries.size())
   {
