@@ -22,6 +22,15 @@ struct Boundary
 };
 
 /**
+ * Measures the step between two rings in all directions.
+ *
+ * @param radii of all boundaries, ascending [px].
+ * @param k     index of the boundary.
+ */
+Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
+                         std::size_t k);
+
+/**
  * The boundaries between rings of any width: the fewest that explain the profile. A shadow's edge, a scratch or a
  * texture steps in some directions only, an overshoot has the same colour on both sides; neither is a boundary.
  *
