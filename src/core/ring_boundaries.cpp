@@ -86,8 +86,8 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   {
     LogColor before;
     LogColor after;
-    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before) &&
-        ringColor(profile, radii, k + 1, angle, after))
+    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before, RingPart::outer_rim) &&
+        ringColor(profile, radii, k + 1, angle, after, RingPart::inner_rim))
     {
       local_steps[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
       steps[angle] = after - before;

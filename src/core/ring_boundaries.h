@@ -19,6 +19,7 @@ struct Boundary
   AngleBins seen = 0;       ///< directions that lie inside the image
   AngleBins agreeing = 0;   ///< directions that agree
   AngleBins supported = 0;  ///< directions with an edgel
+  bool shown = true;        ///< false: assumed where equal rings would have one
 };
 
 /**

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ring_ladder.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -182,12 +183,14 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   const AngleBins visible = visibleDirections(candidate.boundaries);
   candidate.visible = share(visible);
   candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  candidate.ring_count = static_cast<int>(candidate.boundaries.size());
+  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries, rings.radii);
   return true;
 }
 
 bool isTarget(const RingCandidate& candidate, int min_rings)
 {
-  const int count = static_cast<int>(candidate.boundaries.size());
+  const int count = candidate.ring_count;
   const Rings& rings = candidate.rings;
   const double radius = rings.radii.back();
   const double perspective = std::hypot(rings.family.hx, rings.family.hy);

@@ -8,6 +8,7 @@ namespace omr
 {
 namespace
 {
+constexpr int MIN_DIRECTIONS = 12;  // that make a median
 constexpr double DARKEST = .003;  // linear light: two grey levels in the dark, below it is noise
 
 /** Values of three channels, and their medians. */
@@ -39,6 +40,12 @@ class Values
   std::array<std::vector<double>, 3> values_;
 };
 
+/** The directions that tell a boundary's step; all where too few agree. */
+AngleBins shownDirections(const Boundary& boundary)
+{
+  return __builtin_popcountll(boundary.agreeing) >= MIN_DIRECTIONS ? boundary.agreeing : ~AngleBins{0};
+}
+
 /** Logarithm of the linear light. */
 cv::Vec3d logLight(const LogColor& color)
 {
@@ -51,13 +58,15 @@ cv::Vec3d logLight(const LogColor& color)
 }
 }  // namespace
 
-std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<double>& radii)
+std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<Boundary>& boundaries,
+                                           const std::vector<double>& radii)
 {
   const std::size_t count = radii.size() + 1;
   std::vector<cv::Vec3d> chained(count);
   cv::Vec3d level;  // what the chain lacks: the light of the whole target
   for (std::size_t ring = 0; ring < count; ++ring)
   {
+    const AngleBins shown = ring > 0 ? shownDirections(boundaries[ring - 1]) : 0;
     Values steps;
     Values light;
     for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
@@ -70,7 +79,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
         light.add(logLight(color));
       }
       // Where a shadow's edge runs, the two sides of the boundary are still under one light.
-      if (ring > 0 && ringColor(profile, radii, ring - 1, angle, before, RingPart::outer_rim) &&
+      if ((shown >> angle & 1) != 0 && ringColor(profile, radii, ring - 1, angle, before, RingPart::outer_rim) &&
           ringColor(profile, radii, ring, angle, after, RingPart::inner_rim))
       {
         steps.add(logLight(after) - logLight(before));
