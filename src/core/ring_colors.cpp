@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "ring_deblur.h"
+
 namespace omr
 {
 namespace
 {
+constexpr double BLURRED_WIDTH = 7;  // narrower rings have no place that the blur does not reach [px]
 constexpr int MIN_DIRECTIONS = 12;  // that make a median
 constexpr double DARKEST = .003;  // linear light: two grey levels in the dark, below it is noise
 
@@ -46,15 +49,30 @@ AngleBins shownDirections(const Boundary& boundary)
   return __builtin_popcountll(boundary.agreeing) >= MIN_DIRECTIONS ? boundary.agreeing : ~AngleBins{0};
 }
 
-/** Logarithm of the linear light. */
-cv::Vec3d logLight(const LogColor& color)
+/** Logarithm of the linear light: red, green, blue. @param grey B, G, R [0, 255] */
+cv::Vec3d logLight(const cv::Vec3d& grey)
 {
   cv::Vec3d light;
   for (int c = 0; c < 3; ++c)
   {
-    light[c] = std::log(linearLight(greyLevel(color[2 - c])) + DARKEST);
+    light[c] = std::log(linearLight(grey[2 - c]) + DARKEST);
   }
   return light;
+}
+
+cv::Vec3d logLight(const LogColor& color)
+{
+  return logLight(cv::Vec3d(greyLevel(color[0]), greyLevel(color[1]), greyLevel(color[2])));
+}
+
+double narrowest(const std::vector<double>& radii)
+{
+  double width = radii[0];
+  for (std::size_t k = 1; k < radii.size(); ++k)
+  {
+    width = std::min(width, radii[k] - radii[k - 1]);
+  }
+  return width;
 }
 }  // namespace
 
@@ -63,6 +81,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
 {
   const std::size_t count = radii.size() + 1;
   std::vector<cv::Vec3d> chained(count);
+  std::vector<cv::Vec3d> medians(count);
   cv::Vec3d level;  // what the chain lacks: the light of the whole target
   for (std::size_t ring = 0; ring < count; ++ring)
   {
@@ -86,7 +105,16 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
       }
     }
     chained[ring] = ring > 0 ? chained[ring - 1] + steps.median() : cv::Vec3d();
-    level += (light.median() - chained[ring]) * (1. / static_cast<double>(count));
+    medians[ring] = light.median();
+    level += (medians[ring] - chained[ring]) * (1. / static_cast<double>(count));
+  }
+  if (narrowest(radii) < BLURRED_WIDTH)
+  {
+    const std::vector<cv::Vec3d> deblurred = deblurredColors(profile, radii);
+    for (std::size_t ring = 0; ring < count; ++ring)
+    {
+      chained[ring] += logLight(deblurred[ring]) - medians[ring];
+    }
   }
   std::vector<LinearColor> colors;
   for (const cv::Vec3d& color : chained)
