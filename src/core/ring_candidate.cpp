@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ring_deblur.h"
 #include "ring_ladder.h"
 #include "ring_refinement.h"
 
@@ -11,6 +12,10 @@ namespace omr
 namespace
 {
 constexpr int MAX_ROUNDS = 4;
+
+constexpr double SPLIT_EVIDENCE = .8;
+constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
+constexpr int MOST_SPLITS = 2;
 
 // The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
 // clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
@@ -120,6 +125,48 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
+double narrowest(const std::vector<double>& radii)
+{
+  double width = radii[0];
+  for (std::size_t k = 1; k < radii.size(); ++k)
+  {
+    width = std::min(width, radii[k] - radii[k - 1]);
+  }
+  return width;
+}
+
+std::vector<double> measuredRadii(const std::vector<Boundary>& boundaries)
+{
+  std::vector<double> radii;
+  radii.reserve(boundaries.size());
+  for (const Boundary& boundary : boundaries)
+  {
+    radii.push_back(boundary.radius);
+  }
+  return radii;
+}
+
+void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
+{
+  for (int split = 0; split < MOST_SPLITS; ++split)
+  {
+    std::vector<double> radii = measuredRadii(candidate.boundaries);
+    const double radius = mergedBoundary(candidate.profile, radii);
+    if (radius <= 0)
+    {
+      return;
+    }
+    const auto place = std::lower_bound(radii.begin(), radii.end(), radius);
+    const auto ring = place - radii.begin();
+    // The refinement has moved the boundaries since they were measured.
+    const double scale = candidate.rings.radii[ring] / *place;
+    radii.insert(place, radius);
+    candidate.boundaries.insert(
+        candidate.boundaries.begin() + ring,
+        measureBoundary(candidate.profile, support, radii, static_cast<std::size_t>(ring)));
+    candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
+  }
+}
 }  // namespace
 
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
@@ -183,6 +230,10 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   const AngleBins visible = visibleDirections(candidate.boundaries);
   candidate.visible = share(visible);
   candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  if (candidate.evidence > SPLIT_EVIDENCE && narrowest(rings.radii) < SPLIT_WIDTH)
+  {
+    splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
+  }
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
   addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries, rings.radii);
   return true;

@@ -18,6 +18,15 @@ namespace omr
  */
 std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::vector<double>& radii);
 
+/**
+ * Radius of a boundary within a ring that the blur hides: where two narrow rings of similar brightness meet, the
+ * colour has no steepest place.
+ *
+ * @param radii of the known boundaries [px], not empty.
+ * @return      0 if uniform rings explain the profile.
+ */
+double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii);
+
 }  // namespace omr
 
 #endif
