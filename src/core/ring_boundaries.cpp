@@ -25,8 +25,8 @@ constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where 
 constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
 
 // Cameras and JPEG blur hues over several pixels: beside an edge the hue changes once more, faintly and without edgels.
-constexpr double BLEEDING = 6;               // reach of that [px]
-constexpr double BLED_CONTRAST = .7;         // most, relative to the edge's
+constexpr double BLEEDING = 6;        // reach of that [px]
+constexpr double BLED_CONTRAST = .7;  // most, relative to the edge's
 constexpr double LARGEST_BLED_CONTRAST = .45;
 constexpr double MIN_FLANK_SUPPORT = .75;    // by edgels, of a boundary that may be such a change, or else
 constexpr double MIN_FLANK_AGREEMENT = .92;  // times coherence
@@ -70,6 +70,14 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
 }
 
 }  // namespace
+
+std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
+{
+  std::vector<double> radii(boundaries.size());
+  std::transform(boundaries.begin(), boundaries.end(), radii.begin(),
+                 [](const Boundary& boundary) { return boundary.radius; });
+  return radii;
+}
 
 Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
                          std::size_t k)
@@ -145,8 +153,7 @@ bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
     return std::abs(other.radius - boundary.radius) < BLEEDING && boundary.contrast < BLED_CONTRAST * other.contrast;
   };
   return boundary.contrast < LARGEST_BLED_CONTRAST &&
-         ((k > 0 && is_stronger(boundaries[k - 1])) ||
-          (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
+         ((k > 0 && is_stronger(boundaries[k - 1])) || (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
 }
 
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
@@ -160,8 +167,8 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
   if (isBesideStronger(boundaries, k))
   {
     const double supported = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
-    result = std::min(result, std::max(supported / MIN_FLANK_SUPPORT,
-                                       boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
+    result = std::min(
+        result, std::max(supported / MIN_FLANK_SUPPORT, boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
   }
   if (k > 0 && k + 1 == boundaries.size())
   {

@@ -22,6 +22,9 @@ struct Boundary
   bool shown = true;        ///< false: assumed where equal rings would have one
 };
 
+/** Their radii [px]. */
+std::vector<double> radiiOf(const std::vector<Boundary>& boundaries);
+
 /**
  * Measures the step between two rings in all directions.
  *

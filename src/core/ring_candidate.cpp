@@ -27,21 +27,6 @@ constexpr double MOSTLY_VISIBLE = .8;  // of the directions
 constexpr double LEAST_VISIBLE = .5;
 constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
 
-std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
-{
-  std::vector<double> radii;
-  radii.reserve(boundaries.size());
-  for (const Boundary& boundary : boundaries)
-  {
-    radii.push_back(boundary.radius);
-  }
-  if (radii.size() > MAX_BOUNDARIES)
-  {
-    radii.resize(MAX_BOUNDARIES);
-  }
-  return radii;
-}
-
 /** How far beyond the outermost boundary another may lie. */
 double profileReach(const Rings& rings)
 {
@@ -125,32 +110,12 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
-double narrowest(const std::vector<double>& radii)
-{
-  double width = radii[0];
-  for (std::size_t k = 1; k < radii.size(); ++k)
-  {
-    width = std::min(width, radii[k] - radii[k - 1]);
-  }
-  return width;
-}
-
-std::vector<double> measuredRadii(const std::vector<Boundary>& boundaries)
-{
-  std::vector<double> radii;
-  radii.reserve(boundaries.size());
-  for (const Boundary& boundary : boundaries)
-  {
-    radii.push_back(boundary.radius);
-  }
-  return radii;
-}
-
+/** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
 {
   for (int split = 0; split < MOST_SPLITS; ++split)
   {
-    std::vector<double> radii = measuredRadii(candidate.boundaries);
+    std::vector<double> radii = radiiOf(candidate.boundaries);
     const double radius = mergedBoundary(candidate.profile, radii);
     if (radius <= 0)
     {
@@ -161,9 +126,8 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
     // The refinement has moved the boundaries since they were measured.
     const double scale = candidate.rings.radii[ring] / *place;
     radii.insert(place, radius);
-    candidate.boundaries.insert(
-        candidate.boundaries.begin() + ring,
-        measureBoundary(candidate.profile, support, radii, static_cast<std::size_t>(ring)));
+    candidate.boundaries.insert(candidate.boundaries.begin() + ring,
+                                measureBoundary(candidate.profile, support, radii, static_cast<std::size_t>(ring)));
     candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
   }
 }
@@ -217,6 +181,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
     }
     const std::vector<double> before = rings.radii;
     rings.radii = radiiOf(candidate.boundaries);
+    rings.radii.resize(std::min<std::size_t>(rings.radii.size(), MAX_BOUNDARIES));
     if (!refineRings(map, std::max(1., .012 * rings.radii.back()), true, rings))
     {
       return false;
@@ -230,12 +195,13 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   const AngleBins visible = visibleDirections(candidate.boundaries);
   candidate.visible = share(visible);
   candidate.evidence = evidenceOf(candidate.boundaries, visible);
-  if (candidate.evidence > SPLIT_EVIDENCE && narrowest(rings.radii) < SPLIT_WIDTH)
+  if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
   {
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
   }
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
-  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries, rings.radii);
+  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+                      rings.radii);
   return true;
 }
 

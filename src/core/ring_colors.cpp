@@ -11,8 +11,8 @@ namespace omr
 namespace
 {
 constexpr double BLURRED_WIDTH = 7;  // narrower rings have no place that the blur does not reach [px]
-constexpr int MIN_DIRECTIONS = 12;  // that make a median
-constexpr double DARKEST = .003;  // linear light: two grey levels in the dark, below it is noise
+constexpr int MIN_DIRECTIONS = 12;   // that make a median
+constexpr double DARKEST = .003;     // linear light: two grey levels in the dark, below it is noise
 
 /** Values of three channels, and their medians. */
 class Values
@@ -64,16 +64,6 @@ cv::Vec3d logLight(const LogColor& color)
 {
   return logLight(cv::Vec3d(greyLevel(color[0]), greyLevel(color[1]), greyLevel(color[2])));
 }
-
-double narrowest(const std::vector<double>& radii)
-{
-  double width = radii[0];
-  for (std::size_t k = 1; k < radii.size(); ++k)
-  {
-    width = std::min(width, radii[k] - radii[k - 1]);
-  }
-  return width;
-}
 }  // namespace
 
 std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<Boundary>& boundaries,
@@ -108,7 +98,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
     medians[ring] = light.median();
     level += (medians[ring] - chained[ring]) * (1. / static_cast<double>(count));
   }
-  if (narrowest(radii) < BLURRED_WIDTH)
+  if (narrowestRing(radii) < BLURRED_WIDTH)
   {
     const std::vector<cv::Vec3d> deblurred = deblurredColors(profile, radii);
     for (std::size_t ring = 0; ring < count; ++ring)

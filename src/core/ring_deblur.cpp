@@ -171,11 +171,7 @@ double mergedBoundary(const RingProfile& profile, const std::vector<double>& rad
   const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
   const Fit whole = fitRings(samples, profile.step, radii);
   double contrast = 0;
-  double narrowest = radii[0];
-  for (std::size_t k = 1; k < radii.size(); ++k)
-  {
-    narrowest = std::min(narrowest, radii[k] - radii[k - 1]);
-  }
+  const double narrowest = narrowestRing(radii);
   for (std::size_t k = 0; k + 1 < whole.colors.size(); ++k)
   {
     contrast = std::max(contrast, cv::norm(whole.colors[k] - whole.colors[k + 1]));

@@ -17,8 +17,9 @@ constexpr double MIN_SHOWN = .25;
 constexpr double MIN_COHERENCE = .7;
 constexpr double MIN_CONTRAST = .12;  // of the logarithms
 
-constexpr double MIN_READABLE = .45;   // agreement that tells the colours of its rings: below it glare is read
-constexpr double MOSTLY_HIDDEN = .6;  // a disk's outline agrees in fewer directions: what covers it may hide rings entirely
+constexpr double MIN_READABLE = .45;  // agreement that tells the colours of its rings: below it glare is read
+constexpr double MOSTLY_HIDDEN =
+    .6;  // a disk's outline agrees in fewer directions: what covers it may hide rings entirely
 constexpr double MERGING_WIDTH = 4.5;  // narrower rings of similar brightness merge [px]
 
 /** How many rings of the others' width the ring takes the place of; 1 if the others differ. */
@@ -75,10 +76,7 @@ void addHiddenBoundaries(const RingProfile& profile, const AngularSupport& suppo
     {
       continue;
     }
-    std::vector<double> measured(boundaries.size());
-    std::transform(boundaries.begin(), boundaries.end(), measured.begin(),
-                   [](const Boundary& boundary) { return boundary.radius; });
-    measured = divided(measured, ring, count);
+    const std::vector<double> measured = divided(radiiOf(boundaries), ring, count);
     std::vector<Boundary> hidden;
     bool all_shown = true;
     for (int i = 0; i + 1 < count; ++i)

@@ -131,6 +131,16 @@ bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std
   return true;
 }
 
+double narrowestRing(const std::vector<double>& radii)
+{
+  double narrowest = radii[0];
+  for (std::size_t k = 1; k < radii.size(); ++k)
+  {
+    narrowest = std::min(narrowest, radii[k] - radii[k - 1]);
+  }
+  return narrowest;
+}
+
 double greyLevel(float log_color)
 {
   return std::exp(log_color) - DARK_LEVEL;

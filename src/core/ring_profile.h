@@ -60,6 +60,9 @@ enum class RingPart
 bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,
                LogColor& color, RingPart part = RingPart::whole);
 
+/** Width of the narrowest ring [px]. @param radii of the boundaries [px], not empty */
+double narrowestRing(const std::vector<double>& radii);
+
 /** The grey level [0, 255] that a channel of a LogColor stands for. */
 double greyLevel(float log_color);
 
