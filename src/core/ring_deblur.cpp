@@ -190,13 +190,14 @@ double mergedBoundary(const RingProfile& profile, const std::vector<double>& rad
     std::copy(radii.begin(), radii.end(), split.begin());
     std::copy(radii.begin() + static_cast<std::ptrdiff_t>(ring), radii.end(),
               split.begin() + static_cast<std::ptrdiff_t>(ring) + 1);
-    for (double radius = inner + NARROWEST; radius <= radii[ring] - NARROWEST; radius += SEARCH_STEP)
+    const int places = static_cast<int>((radii[ring] - inner - 2 * NARROWEST) / SEARCH_STEP) + 1;
+    for (int i = 0; i < places; ++i)
     {
-      split[ring] = radius;
+      split[ring] = inner + NARROWEST + i * SEARCH_STEP;
       const Fit fit = fitRings(samples, profile.step, split);
       if (fit.rms < best_rms)
       {
-        best = radius;
+        best = split[ring];
         best_rms = fit.rms;
       }
     }
