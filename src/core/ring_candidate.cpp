@@ -217,12 +217,12 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     return false;
   }
   const bool many = count >= MANY_RINGS;
-  if (radius < SMALL_RADIUS)
+  const bool fits_well = rings.rms < .1 + .002 * radius;
+  if (radius < SMALL_RADIUS || (radius < LARGE_RADIUS && !many && !fits_well))
   {
     return many ? candidate.evidence > .8 && candidate.visible > .85
                 : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
   }
-  const bool fits_well = rings.rms < .1 + .002 * radius;
   const bool fits = rings.rms < .25 + .0025 * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {
