@@ -79,7 +79,7 @@ cv::Mat renderTarget(const TargetScene& scene)
       const cv::Point2d p((x + .5) / SUPERSAMPLING - .5, (y + .5) / SUPERSAMPLING - .5);
       const cv::Vec3d q = inverse * cv::Vec3d(p.x, p.y, 1);
       double light = scene.light * (1 + scene.gradient * (p.x / scene.size.width - .5));
-      light *= (p.x - center.x) + .4 * (p.y - center.y) > 0 ? scene.shadow : 1;
+      light *= (p.x - center.x - scene.shadow_offset) + .4 * (p.y - center.y) > 0 ? scene.shadow : 1;
       const cv::Vec3d color = surface(scene, cv::Point2d(q[0] / q[2], q[1] / q[2]), random).mul(scene.tint) * light;
       fine.at<cv::Vec3f>(y, x) = cv::Vec3f(color);
     }

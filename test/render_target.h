@@ -19,6 +19,7 @@ struct TargetScene
   double gradient = 0;               ///< relative change of the light over the image's width
   cv::Vec3d tint = {1, 1, 1};        ///< of the light (blue, green, red)
   double shadow = 1;                 ///< factor of the light right of the oblique line through the centre
+  double shadow_offset = 0;          ///< moves that line to the right [px]
   double occluder = 0;               ///< a skin-coloured half-plane over this share of the outer radius
   double blur = .7;                  ///< deviation of the lens' point spread [px]
   double noise = 1.5;                ///< deviation of the grey levels

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/reference_fill.h"
@@ -160,6 +161,48 @@ TEST(Targets, smallRings)
   scene.colors = "WPWP";
   scene.radii = {5, 10, 15, 20};
   expectFound(scene, "WPWP");
+}
+
+TEST(Targets, theDisksColourIsThatOfItsSunnySide)
+{
+  // A shadow covers the disk but for its rim.
+  TargetScene scene;
+  scene.colors = "GWPBG";
+  scene.shadow = .15;
+  for (const double offset : {-14., 10.})
+  {
+    scene.shadow_offset = offset;
+    expectFound(scene, "GWPBG", .2);
+  }
+}
+
+TEST(Targets, whatHidesTheDiskIsNotRead)
+{
+  // Two equal rings are left of four: the others are there, but unknown.
+  TargetScene scene;
+  scene.colors = "PGBW";
+  scene.radii = {25, 50, 75, 100};
+  scene.sheet_half_side = 0;
+  scene.ground = {.05, .05, .05};
+  cv::Mat image = renderTarget(scene);
+  cv::ellipse(image, {236, 186}, {64, 42}, 20, 0, 360, cv::Scalar(90, 140, 190), cv::FILLED, cv::LINE_AA);
+  for (const Target& target : find(image))
+  {
+    EXPECT_EQ('?', target.colors[0]) << target.colors;
+  }
+}
+
+TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)
+{
+  TargetScene scene;
+  scene.colors = "PGRPG";
+  scene.radii = {4.1, 8.2, 12.3, 16.4, 20.5};
+  scene.blur = .9;
+  std::vector<uchar> jpeg;
+  cv::imencode(".jpg", renderTarget(scene), jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
+  const std::vector<Target> targets = find(cv::imdecode(jpeg, cv::IMREAD_COLOR));
+  ASSERT_EQ(1U, targets.size());
+  EXPECT_EQ("PGRPG", targets[0].colors);
 }
 
 TEST(Targets, minRingsDecidesAboutTwoRings)

@@ -5,20 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "ring_slopes.h"
+
 namespace omr
 {
 namespace
 {
 constexpr int ANGLES = RingProfile::ANGLES;
 constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
-constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all directions see the same pixels
 constexpr int MIN_EDGED = 16;           // directions with an edge that make a median
 constexpr double MIN_WIDTH = 2.5;       // of a ring whose boundaries edgels alone show [px]
 constexpr double MIDDLE = .4;           // of a ring: from here to 1 - MIDDLE
-constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
-constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
-constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
-constexpr double TURN = -.3;            // cosine between the slopes of two edges of a narrow ring
 constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
 constexpr double SMALL_RADIUS = 3;      // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
@@ -26,6 +23,13 @@ constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target ma
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
 constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
+
+// Cameras and JPEG blur hues over several pixels: beside an edge the hue changes once more, faintly and without edgels.
+constexpr double BLEEDING = 6;        // reach of that [px]
+constexpr double BLED_CONTRAST = .7;  // most, relative to the edge's
+constexpr double LARGEST_BLED_CONTRAST = .45;
+constexpr double MIN_FLANK_SUPPORT = .75;    // by edgels, of a boundary that may be such a change, or else
+constexpr double MIN_FLANK_AGREEMENT = .92;  // times coherence
 
 int bits(AngleBins mask)
 {
@@ -38,87 +42,6 @@ float median(Values& values, int count)
 {
   std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
   return values[count / 2];
-}
-
-float brightest(const cv::Vec3f& grey)
-{
-  return std::max({grey[0], grey[1], grey[2]});
-}
-
-/**
- * Median slope of each channel at each radius, relative to the brightness there. Of grey levels: logarithms would move
- * a rising and a falling channel of one edge apart.
- */
-std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
-{
-  const int reach = std::max(1, static_cast<int>(std::lround(1 / profile.step)));
-  std::vector<cv::Vec3f> slopes(static_cast<std::size_t>(profile.count));
-  for (int i = reach; i + reach < profile.count; ++i)
-  {
-    std::array<Values, 3> values;
-    int count = 0;
-    cv::Vec3f sum;  // of the sizes: where it is small, the median is smaller
-    for (int angle = 0; angle < ANGLES; ++angle)
-    {
-      if (i + reach < profile.inside[angle])
-      {
-        const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
-        const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
-        const float scale = 1 / (brightest(inner) + brightest(outer) + DARK_LEVEL);
-        for (int c = 0; c < 3; ++c)
-        {
-          values[c][count] = (outer[c] - inner[c]) * scale;
-          sum[c] += std::abs(values[c][count]);
-        }
-        ++count;
-      }
-    }
-    for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
-    {
-      slopes[i][c] = sum[c] > .5 * MIN_SLOPE * count ? median(values[c], count) : 0;
-    }
-  }
-  return slopes;
-}
-
-/** Radii at which the slope, as a length over the channels, has a maximum. */
-std::vector<double> candidates(const RingProfile& profile)
-{
-  const std::vector<cv::Vec3f> directions = medianSlopes(profile);
-  std::vector<double> slopes(directions.size());
-  std::transform(directions.begin(), directions.end(), slopes.begin(),
-                 [](const cv::Vec3f& slope) { return cv::norm(slope); });
-  const int reach = std::max(1, static_cast<int>(1 / profile.step));
-  std::vector<double> radii;
-  int last = -1;
-  for (int i = static_cast<int>(MIN_RADIUS / profile.step); i + 1 < profile.count; ++i)
-  {
-    const auto from = slopes.begin() + std::max(0, i - reach);
-    const auto to = slopes.begin() + std::min(profile.count, i + reach + 1);
-    if (slopes[i] <= MIN_SLOPE || std::max_element(from, to) != slopes.begin() + i)
-    {
-      continue;
-    }
-    if (last >= 0)
-    {
-      // One edge may give two maxima; between two edges the slope falls, or turns back.
-      const double valley = *std::min_element(slopes.begin() + last, slopes.begin() + i);
-      const bool turns_back = directions[i].dot(directions[last]) < TURN * slopes[i] * slopes[last];
-      if (!turns_back && valley > VALLEY * std::min(slopes[i], slopes[last]))
-      {
-        if (slopes[i] <= slopes[last])
-        {
-          continue;
-        }
-        radii.pop_back();
-      }
-    }
-    const double curvature = slopes[i - 1] + slopes[i + 1] - 2 * slopes[i];
-    const double offset = curvature < 0 ? std::clamp(.5 * (slopes[i - 1] - slopes[i + 1]) / curvature, -.5, .5) : 0;
-    radii.push_back((i + offset) * profile.step);
-    last = i;
-  }
-  return radii;
 }
 
 /** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
@@ -146,8 +69,18 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
   return std::min({.5 * inside, .5 * outside, std::max(2., .02 * radii[k])});
 }
 
-Boundary measure(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
-                 std::size_t k)
+}  // namespace
+
+std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
+{
+  std::vector<double> radii(boundaries.size());
+  std::transform(boundaries.begin(), boundaries.end(), radii.begin(),
+                 [](const Boundary& boundary) { return boundary.radius; });
+  return radii;
+}
+
+Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
+                         std::size_t k)
 {
   const double reach = stepReach(radii, k);
   const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
@@ -161,8 +94,8 @@ Boundary measure(const RingProfile& profile, const AngularSupport& support, cons
   {
     LogColor before;
     LogColor after;
-    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before) &&
-        ringColor(profile, radii, k + 1, angle, after))
+    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before, RingPart::outer_rim) &&
+        ringColor(profile, radii, k + 1, angle, after, RingPart::inner_rim))
     {
       local_steps[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
       steps[angle] = after - before;
@@ -210,6 +143,19 @@ Boundary measure(const RingProfile& profile, const AngularSupport& support, cons
   return boundary;
 }
 
+namespace
+{
+/** Whether a boundary may be only the blurred hue of a stronger one beside it. */
+bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
+{
+  const Boundary& boundary = boundaries[k];
+  const auto is_stronger = [&](const Boundary& other) {
+    return std::abs(other.radius - boundary.radius) < BLEEDING && boundary.contrast < BLED_CONTRAST * other.contrast;
+  };
+  return boundary.contrast < LARGEST_BLED_CONTRAST &&
+         ((k > 0 && is_stronger(boundaries[k - 1])) || (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
+}
+
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
 double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {
@@ -218,6 +164,12 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
   const double least_contrast = MIN_CONTRAST * (1 + SMALL_RADIUS / boundary.radius);
   double result =
       std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
+  if (isBesideStronger(boundaries, k))
+  {
+    const double supported = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
+    result = std::min(
+        result, std::max(supported / MIN_FLANK_SUPPORT, boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
+  }
   if (k > 0 && k + 1 == boundaries.size())
   {
     // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.
@@ -251,12 +203,12 @@ int tooNarrow(const std::vector<double>& radii)
 std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSupport& support,
                                      const std::vector<double>& known)
 {
-  std::vector<double> radii = candidates(profile);
+  std::vector<double> radii = steepestRadii(profile);
   addKnown(known, (profile.count - 1) * profile.step, radii);
   std::vector<Boundary> boundaries(radii.size());
   for (std::size_t k = 0; k < radii.size(); ++k)
   {
-    boundaries[k] = measure(profile, support, radii, k);
+    boundaries[k] = measureBoundary(profile, support, radii, k);
   }
   const auto remove = [&](std::size_t k) {
     const auto offset = static_cast<std::ptrdiff_t>(k);
@@ -264,7 +216,7 @@ std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSu
     boundaries.erase(boundaries.begin() + offset);
     for (std::size_t neighbor = k > 0 ? k - 1 : 0; neighbor < std::min(k + 1, radii.size()); ++neighbor)
     {
-      boundaries[neighbor] = measure(profile, support, radii, neighbor);
+      boundaries[neighbor] = measureBoundary(profile, support, radii, neighbor);
     }
   };
   while (!radii.empty())

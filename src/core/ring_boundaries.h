@@ -19,7 +19,20 @@ struct Boundary
   AngleBins seen = 0;       ///< directions that lie inside the image
   AngleBins agreeing = 0;   ///< directions that agree
   AngleBins supported = 0;  ///< directions with an edgel
+  bool shown = true;        ///< false: assumed where equal rings would have one
 };
+
+/** Their radii [px]. */
+std::vector<double> radiiOf(const std::vector<Boundary>& boundaries);
+
+/**
+ * Measures the step between two rings in all directions.
+ *
+ * @param radii of all boundaries, ascending [px].
+ * @param k     index of the boundary.
+ */
+Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
+                         std::size_t k);
 
 /**
  * The boundaries between rings of any width: the fewest that explain the profile. A shadow's edge, a scratch or a

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ring_deblur.h"
+#include "ring_ladder.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -10,6 +12,10 @@ namespace omr
 namespace
 {
 constexpr int MAX_ROUNDS = 4;
+
+constexpr double SPLIT_EVIDENCE = .8;
+constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
+constexpr int MOST_SPLITS = 2;
 
 // The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
 // clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
@@ -20,21 +26,6 @@ constexpr double SMALLEST_DISK = 2;    // radius [px]
 constexpr double MOSTLY_VISIBLE = .8;  // of the directions
 constexpr double LEAST_VISIBLE = .5;
 constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
-
-std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
-{
-  std::vector<double> radii;
-  radii.reserve(boundaries.size());
-  for (const Boundary& boundary : boundaries)
-  {
-    radii.push_back(boundary.radius);
-  }
-  if (radii.size() > MAX_BOUNDARIES)
-  {
-    radii.resize(MAX_BOUNDARIES);
-  }
-  return radii;
-}
 
 /** How far beyond the outermost boundary another may lie. */
 double profileReach(const Rings& rings)
@@ -119,6 +110,27 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
+/** Adds the boundaries that the blur hides between narrow rings. */
+void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
+{
+  for (int split = 0; split < MOST_SPLITS; ++split)
+  {
+    std::vector<double> radii = radiiOf(candidate.boundaries);
+    const double radius = mergedBoundary(candidate.profile, radii);
+    if (radius <= 0)
+    {
+      return;
+    }
+    const auto place = std::lower_bound(radii.begin(), radii.end(), radius);
+    const auto ring = place - radii.begin();
+    // The refinement has moved the boundaries since they were measured.
+    const double scale = candidate.rings.radii[ring] / *place;
+    radii.insert(place, radius);
+    candidate.boundaries.insert(candidate.boundaries.begin() + ring,
+                                measureBoundary(candidate.profile, support, radii, static_cast<std::size_t>(ring)));
+    candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
+  }
+}
 }  // namespace
 
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
@@ -169,6 +181,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
     }
     const std::vector<double> before = rings.radii;
     rings.radii = radiiOf(candidate.boundaries);
+    rings.radii.resize(std::min<std::size_t>(rings.radii.size(), MAX_BOUNDARIES));
     if (!refineRings(map, std::max(1., .012 * rings.radii.back()), true, rings))
     {
       return false;
@@ -182,12 +195,19 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   const AngleBins visible = visibleDirections(candidate.boundaries);
   candidate.visible = share(visible);
   candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
+  {
+    splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
+  }
+  candidate.ring_count = static_cast<int>(candidate.boundaries.size());
+  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+                      rings.radii);
   return true;
 }
 
 bool isTarget(const RingCandidate& candidate, int min_rings)
 {
-  const int count = static_cast<int>(candidate.boundaries.size());
+  const int count = candidate.ring_count;
   const Rings& rings = candidate.rings;
   const double radius = rings.radii.back();
   const double perspective = std::hypot(rings.family.hx, rings.family.hy);
@@ -197,12 +217,12 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     return false;
   }
   const bool many = count >= MANY_RINGS;
-  if (radius < SMALL_RADIUS)
+  const bool fits_well = rings.rms < .1 + .002 * radius;
+  if (radius < SMALL_RADIUS || (radius < LARGE_RADIUS && !many && !fits_well))
   {
     return many ? candidate.evidence > .8 && candidate.visible > .85
                 : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
   }
-  const bool fits_well = rings.rms < .1 + .002 * radius;
   const bool fits = rings.rms < .25 + .0025 * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {

@@ -16,6 +16,7 @@ struct RingCandidate
   cv::Size image_size;
   Rings rings;
   std::vector<Boundary> boundaries;  ///< one per radius of rings
+  int ring_count = 0;                ///< of them, that were found without assuming equal rings
   RingProfile profile;               ///< of the final family
   double visible = 0;                ///< share of the directions in which at least half of the boundaries show [0, 1]
   double evidence = 0;  ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]

@@ -1,76 +1,109 @@
 #include "ring_colors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "ring_deblur.h"
 
 namespace omr
 {
 namespace
 {
-constexpr double DARKEST = .003;  // linear light: two grey levels in the dark, below it is noise
+constexpr double BLURRED_WIDTH = 7;  // narrower rings have no place that the blur does not reach [px]
+constexpr int MIN_DIRECTIONS = 12;   // that make a median
+constexpr double DARKEST = .003;     // linear light: two grey levels in the dark, below it is noise
 
-double median(std::vector<double>& values)
+/** Values of three channels, and their medians. */
+class Values
 {
-  if (values.empty())
+ public:
+  void add(const cv::Vec3d& value)
   {
-    return 0;
+    for (int c = 0; c < 3; ++c)
+    {
+      values_[c].push_back(value[c]);
+    }
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+
+  /** 0 without values. */
+  cv::Vec3d median()
+  {
+    cv::Vec3d medians;
+    for (int c = 0; c < 3 && !values_[c].empty(); ++c)
+    {
+      const auto middle = values_[c].begin() + static_cast<std::ptrdiff_t>(values_[c].size() / 2);
+      std::nth_element(values_[c].begin(), middle, values_[c].end());
+      medians[c] = *middle;
+    }
+    return medians;
+  }
+
+ private:
+  std::array<std::vector<double>, 3> values_;
+};
+
+/** The directions that tell a boundary's step; all where too few agree. */
+AngleBins shownDirections(const Boundary& boundary)
+{
+  return __builtin_popcountll(boundary.agreeing) >= MIN_DIRECTIONS ? boundary.agreeing : ~AngleBins{0};
 }
 
-/** Logarithm of the linear light. */
-cv::Vec3d logLight(const LogColor& color)
+/** Logarithm of the linear light: red, green, blue. @param grey B, G, R [0, 255] */
+cv::Vec3d logLight(const cv::Vec3d& grey)
 {
   cv::Vec3d light;
   for (int c = 0; c < 3; ++c)
   {
-    light[c] = std::log(linearLight(greyLevel(color[2 - c])) + DARKEST);
+    light[c] = std::log(linearLight(grey[2 - c]) + DARKEST);
   }
   return light;
 }
+
+cv::Vec3d logLight(const LogColor& color)
+{
+  return logLight(cv::Vec3d(greyLevel(color[0]), greyLevel(color[1]), greyLevel(color[2])));
+}
 }  // namespace
 
-std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<double>& radii)
+std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<Boundary>& boundaries,
+                                           const std::vector<double>& radii)
 {
   const std::size_t count = radii.size() + 1;
-  std::vector<std::vector<cv::Vec3d>> light(count, std::vector<cv::Vec3d>(RingProfile::ANGLES));
-  std::vector<std::vector<char>> seen(count, std::vector<char>(RingProfile::ANGLES, 0));
+  std::vector<cv::Vec3d> chained(count);
+  std::vector<cv::Vec3d> medians(count);
+  cv::Vec3d level;  // what the chain lacks: the light of the whole target
   for (std::size_t ring = 0; ring < count; ++ring)
   {
+    const AngleBins shown = ring > 0 ? shownDirections(boundaries[ring - 1]) : 0;
+    Values steps;
+    Values light;
     for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
     {
       LogColor color;
-      seen[ring][angle] = ringColor(profile, radii, ring, angle, color) ? 1 : 0;
-      light[ring][angle] = logLight(color);
+      LogColor before;
+      LogColor after;
+      if (ringColor(profile, radii, ring, angle, color))
+      {
+        light.add(logLight(color));
+      }
+      // Where a shadow's edge runs, the two sides of the boundary are still under one light.
+      if ((shown >> angle & 1) != 0 && ringColor(profile, radii, ring - 1, angle, before, RingPart::outer_rim) &&
+          ringColor(profile, radii, ring, angle, after, RingPart::inner_rim))
+      {
+        steps.add(logLight(after) - logLight(before));
+      }
     }
+    chained[ring] = ring > 0 ? chained[ring - 1] + steps.median() : cv::Vec3d();
+    medians[ring] = light.median();
+    level += (medians[ring] - chained[ring]) * (1. / static_cast<double>(count));
   }
-  std::vector<cv::Vec3d> chained(count);
-  cv::Vec3d level;  // what the chain lacks: the light of the whole target
-  std::vector<double> values;
-  for (int c = 0; c < 3; ++c)
+  if (narrowestRing(radii) < BLURRED_WIDTH)
   {
+    const std::vector<cv::Vec3d> deblurred = deblurredColors(profile, radii);
     for (std::size_t ring = 0; ring < count; ++ring)
     {
-      values.clear();
-      for (int angle = 0; ring > 0 && angle < RingProfile::ANGLES; ++angle)
-      {
-        if (seen[ring - 1][angle] && seen[ring][angle])
-        {
-          values.push_back(light[ring][angle][c] - light[ring - 1][angle][c]);
-        }
-      }
-      chained[ring][c] = ring > 0 ? chained[ring - 1][c] + median(values) : 0;
-      values.clear();
-      for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
-      {
-        if (seen[ring][angle])
-        {
-          values.push_back(light[ring][angle][c]);
-        }
-      }
-      level[c] += (median(values) - chained[ring][c]) / static_cast<double>(count);
+      chained[ring] += logLight(deblurred[ring]) - medians[ring];
     }
   }
   std::vector<LinearColor> colors;

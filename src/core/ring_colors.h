@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "color_key.h"
+#include "ring_boundaries.h"
 #include "ring_profile.h"
 
 namespace omr
@@ -12,10 +13,12 @@ namespace omr
  * Colours of the rings and, last, of what is around them, as if under one light: each follows from its neighbour by
  * the median step across their boundary, so that a shadow over part of the target cancels.
  *
- * @param radii boundaries of the rings on the profile's family [px], not empty.
- * @return      radii.size() + 1 colours.
+ * @param boundaries of the rings: the directions in which one shows are those that tell its step.
+ * @param radii      their radii on the profile's family [px], not empty.
+ * @return           radii.size() + 1 colours.
  */
-std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<double>& radii);
+std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<Boundary>& boundaries,
+                                           const std::vector<double>& radii);
 
 }  // namespace omr
 

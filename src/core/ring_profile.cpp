@@ -17,6 +17,8 @@ constexpr int LEVELS_PER_GREY = 4;
 constexpr double EDGE_SHARE = .3;      // of the ring's width
 constexpr double EDGE_WIDTH = 1.5;     // [px]
 constexpr double MIN_SURROUNDING = 3;  // width of what counts as around the rings [px]
+constexpr double MIN_RIM = 4;          // of a ring's plateau, that its rim takes [px]
+constexpr double RIM_SHARE = 1 / 3.;
 
 const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
 {
@@ -102,9 +104,18 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
 }
 
 bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,
-               LogColor& color)
+               LogColor& color, RingPart part)
 {
-  const auto [from, to] = plateau(radii, ring, (profile.count - 1) * profile.step);
+  auto [from, to] = plateau(radii, ring, (profile.count - 1) * profile.step);
+  const double rim = std::max(MIN_RIM, RIM_SHARE * (to - from));
+  if (part == RingPart::outer_rim)
+  {
+    from = std::max(from, to - rim);
+  }
+  else if (part == RingPart::inner_rim)
+  {
+    to = std::min(to, from + rim);
+  }
   const int first = static_cast<int>(std::lround(from / profile.step));
   const int last = std::max(first, static_cast<int>(std::lround(to / profile.step)));
   if (last >= profile.inside[angle])
@@ -118,6 +129,16 @@ bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std
   }
   color *= 1.F / (last - first + 1);
   return true;
+}
+
+double narrowestRing(const std::vector<double>& radii)
+{
+  double narrowest = radii[0];
+  for (std::size_t k = 1; k < radii.size(); ++k)
+  {
+    narrowest = std::min(narrowest, radii[k] - radii[k - 1]);
+  }
+  return narrowest;
 }
 
 double greyLevel(float log_color)

@@ -42,6 +42,14 @@ struct RingProfile
  */
 void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile);
 
+/** Of the width of a ring, without what its edges blur. */
+enum class RingPart
+{
+  whole,
+  inner_rim,  ///< beside the inner boundary
+  outer_rim   ///< beside the outer boundary
+};
+
 /**
  * Mean colour of a ring in one direction, away from its edges.
  *
@@ -50,7 +58,10 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
  * @return      false where the ray has left the image.
  */
 bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,
-               LogColor& color);
+               LogColor& color, RingPart part = RingPart::whole);
+
+/** Width of the narrowest ring [px]. @param radii of the boundaries [px], not empty */
+double narrowestRing(const std::vector<double>& radii);
 
 /** The grey level [0, 255] that a channel of a LogColor stands for. */
 double greyLevel(float log_color);

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "ring_residual.h"
+
 namespace omr
 {
 namespace
 {
 using Normal = cv::Matx<double, 7, 7>;
-using Vector = cv::Vec<double, 7>;
+using Vector = FamilyVector;
 
 constexpr int MAX_STEPS = 8;
 constexpr int MAX_TRIALS = 4;
@@ -23,33 +25,6 @@ constexpr double LARGEST_PERSPECTIVE = 0.35;
 constexpr double LARGEST_ASPECT = 5;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
 constexpr double CONVERGED = 1e-3;    // relative change of the cost
-
-/** Distance of a point to its circle [px], and its derivatives. */
-double residual(const RingFamily& family, const std::vector<double>& radii, const BoundaryPoint& point,
-                Vector* derivative, double* by_radius)
-{
-  const cv::Point2d dp = point.position - family.center;
-  const double m00 = family.a - dp.x * family.hx;
-  const double m01 = family.b - dp.x * family.hy;
-  const double m10 = family.b - dp.y * family.hx;
-  const double m11 = family.d - dp.y * family.hy;
-  const double det = m00 * m11 - m01 * m10;
-  const double qx = (m11 * dp.x - m01 * dp.y) / det;
-  const double qy = (m00 * dp.y - m10 * dp.x) / det;
-  const double r = std::max(1e-6, std::sqrt(qx * qx + qy * qy));
-  // g = M^-T q / r; the gradient of r over p is (1 + h.q) g.
-  const double gx = (m11 * qx - m10 * qy) / (det * r);
-  const double gy = (m00 * qy - m01 * qx) / (det * r);
-  const double w = 1 + family.hx * qx + family.hy * qy;
-  const double scale = 1 / std::max(.1, std::abs(w) * std::sqrt(gx * gx + gy * gy));
-  if (derivative != nullptr)
-  {
-    const double along = gx * dp.x + gy * dp.y;
-    *derivative = scale * Vector(-w * gx, -w * gy, -gx * qx, -(gx * qy + gy * qx), -gy * qy, along * qx, along * qy);
-    *by_radius = -scale;
-  }
-  return scale * (r - radii[point.ring]);
-}
 
 double tukeyWeight(double error, double limit)
 {
@@ -138,7 +113,7 @@ class Fit
     errors.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
-      errors[i] = residual(family, radii, points_[i], nullptr, nullptr);
+      errors[i] = circleDistance(family, radii, points_[i], nullptr, nullptr);
     }
   }
 
@@ -176,7 +151,7 @@ class Fit
     {
       Vector derivative;
       double by_radius = 0;
-      const double error = residual(family, radii, point, &derivative, &by_radius);
+      const double error = circleDistance(family, radii, point, &derivative, &by_radius);
       const double weight = tukeyWeight(error, limit_);
       if (weight <= 0)
       {

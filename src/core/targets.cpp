@@ -56,27 +56,37 @@ std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates
 }
 
 /** A target has letters; three narrow rings, which lenses and letters have too, are one only if all can be read. */
-bool isReadable(const Target& target, int min_rings)
+bool isReadable(const Target& target, int ring_count, int min_rings)
 {
   const auto count = static_cast<int>(target.colors.size());
   const auto unknown = std::count(target.colors.begin(), target.colors.end(), '?');
-  if (count < min_rings || unknown == count)
+  if (std::min(count, ring_count) < min_rings || unknown == count)
   {
     return false;
   }
   const cv::Size2f size = target.rings.back().size;
-  return count > 3 || unknown == 0 || std::min(size.width, size.height) > MIN_UNREAD_DIAMETER;
+  return std::min(count, ring_count) > 3 || unknown == 0 || std::min(size.width, size.height) > MIN_UNREAD_DIAMETER;
+}
+
+/** Whether both boundaries of the ring show. */
+bool isSeen(const std::vector<Boundary>& boundaries, std::size_t ring)
+{
+  return boundaries[ring].shown && (ring == 0 || boundaries[ring - 1].shown);
 }
 
 /** The key's letters; a boundary between equal ones is no ring's: the family loses it. */
-std::string readColors(const RingProfile& profile, std::vector<double>& radii)
+std::string readColors(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
 {
   while (true)
   {
-    std::vector<LinearColor> colors = measureRingColors(profile, radii);
+    std::vector<LinearColor> colors = measureRingColors(profile, boundaries, radii);
     const LinearColor around = colors.back();
     colors.pop_back();
     std::string key = readColorKey(colors, around);
+    for (std::size_t k = 0; k < key.size(); ++k)
+    {
+      key[k] = isSeen(boundaries, k) ? key[k] : '?';
+    }
     std::size_t k = 0;
     while (k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1]))
     {
@@ -87,20 +97,21 @@ std::string readColors(const RingProfile& profile, std::vector<double>& radii)
       return key;
     }
     radii.erase(radii.begin() + static_cast<std::ptrdiff_t>(k));
+    boundaries.erase(boundaries.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
 
-Target toTarget(const RingCandidate& candidate)
+/** @return false if the colours are no target's. */
+bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 {
-  Target target;
-  std::vector<double> radii = candidate.rings.radii;
-  target.colors = readColors(candidate.profile, radii);
+  std::vector<double>& radii = candidate.rings.radii;
+  target.colors = readColors(candidate.profile, candidate.boundaries, radii);
   target.center = cv::Point2f(candidate.rings.family.center);
   for (const double radius : radii)
   {
     target.rings.push_back(candidate.rings.family.ellipse(radius));
   }
-  return target;
+  return isReadable(target, candidate.ring_count, min_rings);
 }
 }  // namespace
 
@@ -145,8 +156,8 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
   std::vector<Target> targets;
   for (const RingCandidate& candidate : bestOfEachPlace(std::move(candidates)))
   {
-    Target target = toTarget(candidate);
-    if (isReadable(target, settings.target_min_rings))
+    Target target;
+    if (toTarget(candidate, settings.target_min_rings, target))
     {
       targets.push_back(std::move(target));
     }

@@ -1,0 +1,32 @@
+#ifndef OUTDOOR_OMR_CORE_RING_DEBLUR_H
+#define OUTDOOR_OMR_CORE_RING_DEBLUR_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "ring_profile.h"
+
+namespace omr
+{
+/**
+ * Colours of narrow rings without what the blur mixes into them: the rings of uniform colour whose blurred image fits
+ * the median over all directions best. Brightness is blurred by the lens, hues far more by the camera's colour filter
+ * and JPEG's subsampling.
+ *
+ * @param radii of the boundaries [px], not empty.
+ * @return      B, G, R [0, 255] of each ring, and of what is around them.
+ */
+std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::vector<double>& radii);
+
+/**
+ * Radius of a boundary within a ring that the blur hides: where two narrow rings of similar brightness meet, the
+ * colour has no steepest place.
+ *
+ * @param radii of the known boundaries [px], not empty.
+ * @return      0 if uniform rings explain the profile.
+ */
+double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii);
+
+}  // namespace omr
+
+#endif

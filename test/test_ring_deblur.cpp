@@ -1,0 +1,75 @@
+#include "ring_deblur.h"
+
+#include <gtest/gtest.h>
+
+#include "color_key.h"
+#include "render_target.h"
+
+namespace
+{
+/** Rings of 4 px, as a camera with a colour filter sees them: hues at half the resolution. */
+omr::RingProfile profileOf(TargetScene scene)
+{
+  scene.size = {80, 80};
+  scene.homography = cv::Matx33d(1, 0, 40.3, 0, 1, 39.6, 0, 0, 1);
+  scene.sheet_half_side = 35;
+  const cv::Mat image = renderTarget(scene);
+  omr::RingFamily family;
+  family.center = projectedCenter(scene);
+  omr::RingProfile profile;
+  omr::sampleProfile(image, family, 30, profile);
+  return profile;
+}
+
+std::string letters(const omr::RingProfile& profile, const std::vector<double>& radii)
+{
+  std::vector<omr::LinearColor> colors;
+  for (const cv::Vec3d& color : omr::deblurredColors(profile, radii))
+  {
+    colors.emplace_back(omr::linearLight(color[2]), omr::linearLight(color[1]), omr::linearLight(color[0]));
+  }
+  const omr::LinearColor around = colors.back();
+  colors.pop_back();
+  return omr::readColorKey(colors, around);
+}
+}  // namespace
+
+TEST(RingDeblur, narrowRingsKeepTheirColours)
+{
+  TargetScene scene;
+  scene.radii = {4, 8, 12, 16, 20};
+  scene.blur = 1;
+  for (const std::string colors : {"RWPGB", "PGRPG", "GBWBR", "WBRWP"})
+  {
+    scene.colors = colors;
+    EXPECT_EQ(colors, letters(profileOf(scene), scene.radii));
+  }
+}
+
+TEST(RingDeblur, aBoundaryThatIsMissingIsFound)
+{
+  TargetScene scene;
+  scene.radii = {4, 8, 12, 16, 20};
+  scene.colors = "WBWRP";
+  scene.blur = 1;
+  const omr::RingProfile profile = profileOf(scene);
+  EXPECT_NEAR(16, omr::mergedBoundary(profile, {4, 8, 12, 20}), .8);
+  EXPECT_NEAR(8, omr::mergedBoundary(profile, {4, 12, 16, 20}), .8);
+}
+
+TEST(RingDeblur, completeRingsMissNone)
+{
+  TargetScene scene;
+  scene.radii = {4, 8, 12, 16, 20};
+  scene.blur = 1;
+  EXPECT_EQ(0, omr::mergedBoundary(profileOf(scene), scene.radii));
+  scene.radii = {4, 12, 16, 25};
+  scene.colors = "RWGP";
+  EXPECT_EQ(0, omr::mergedBoundary(profileOf(scene), scene.radii));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
