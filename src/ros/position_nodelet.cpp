@@ -12,6 +12,7 @@
 #include "caught.h"
 #include "part_messages.h"
 #include "position_diagnostics.h"
+#include "tracker_parameters.h"
 
 namespace omr
 {
@@ -52,6 +53,7 @@ class PositionNodelet : public nodelet::Nodelet
       throw std::invalid_argument("parameter ~image_kind: expected raw or rectified, not '" + kind + "'");
     }
     kind_ = kind == "raw" ? ImageKind::RAW : ImageKind::RECTIFIED;
+    tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     NODELET_INFO("%zu parts in %s, of %s images", parts_.size(), file.c_str(), kind.c_str());
     diagnostics_ = std::make_unique<PositionDiagnostics>(nh, private_nh, getName());
@@ -96,7 +98,8 @@ class PositionNodelet : public nodelet::Nodelet
     }
     const std::vector<Sighting> sightings =
         locateParts(fromMessage(checkerboards), fromMessage(targets), parts_, camera);
-    const outdoor_omr::PartArray message = toMessage(checkerboards.header, sightings);
+    outdoor_omr::PartArray message = toMessage(checkerboards.header, sightings);
+    track(message, *tracker_);
     publisher_.publish(message);
     if (markers_.getNumSubscribers() > 0)
     {
@@ -106,7 +109,7 @@ class PositionNodelet : public nodelet::Nodelet
     {
       if (publish_tf_)
       {
-        broadcaster_.sendTransform(toTransform(message.header, part));
+        broadcaster_.sendTransform(toTransform(message.header, part, parts_));
       }
     }
     diagnostics_->located(static_cast<int>(message.parts.size()), static_cast<int>(message.ambiguous.size()));
@@ -115,6 +118,7 @@ class PositionNodelet : public nodelet::Nodelet
   std::vector<Part> parts_;
   ImageKind kind_ = ImageKind::RAW;
   bool publish_tf_ = true;
+  std::unique_ptr<PartTracker> tracker_;
   std::string complaint_;  // the last one, which is not repeated
   std::unique_ptr<PositionDiagnostics> diagnostics_;
   ros::Publisher publisher_;
