@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "outdoor_omr/border.h"
+#include "outdoor_omr/lattice_growth.h"
 #include "outdoor_omr/lattice_model.h"
+#include "outdoor_omr/lattice_prediction.h"
 #include "outdoor_omr/lattice_side.h"
 
 namespace omr
