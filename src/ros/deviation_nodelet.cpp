@@ -1,4 +1,3 @@
-#include <nodelet/nodelet.h>
 #include <outdoor_omr/DeviationArray.h>
 #include <outdoor_omr/PartArray.h>
 #include <tf2_ros/transform_listener.h>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
 #include "number_parameter.h"
 #include "outdoor_omr/deviation.h"
 #include "pose_messages.h"
@@ -74,20 +74,10 @@ std::string reasonWithout(const std::string& part, const outdoor_omr::PartArray&
 }  // namespace
 
 /** Positions of parts in, deviations from their goals out. */
-class DeviationNodelet : public nodelet::Nodelet
+class DeviationNodelet : public CheckedNodelet
 {
  private:
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The deviation of parts cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();

@@ -1,4 +1,3 @@
-#include <nodelet/nodelet.h>
 #include <outdoor_omr/FusionArray.h>
 #include <outdoor_omr/PartArray.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
 #include "number_parameter.h"
 #include "part_fusion.h"
 #include "part_messages.h"
@@ -32,20 +32,10 @@ constexpr double LATE_PERIOD = 0.02;  // [s] at which late cameras are given up
 }  // namespace
 
 /** Positions of parts from several cameras in, one position of each part out. */
-class FusionNodelet : public nodelet::Nodelet
+class FusionNodelet : public CheckedNodelet
 {
  private:
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The fusion of cameras cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();

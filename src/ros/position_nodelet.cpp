@@ -1,6 +1,5 @@
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
-#include <nodelet/nodelet.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <memory>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
 #include "part_messages.h"
 #include "position_diagnostics.h"
 #include "tracker_parameters.h"
@@ -17,7 +17,7 @@
 namespace omr
 {
 /** Markers of an image and the camera's calibration in, positions of parts out. */
-class PositionNodelet : public nodelet::Nodelet
+class PositionNodelet : public CheckedNodelet
 {
  private:
   using CheckerboardArray = outdoor_omr::CheckerboardArray;
@@ -26,17 +26,7 @@ class PositionNodelet : public nodelet::Nodelet
   // Images that may be at work between the camera and the detector's answer.
   static constexpr int QUEUE = 30;
 
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The position of parts cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
