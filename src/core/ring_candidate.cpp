@@ -110,6 +110,21 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
+/** Removes what the blur of other boundaries explains. */
+void removeBlur(RingCandidate& candidate)
+{
+  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
+  {
+    if (isBesideStronger(candidate.boundaries, k) && isBlur(candidate.profile, radiiOf(candidate.boundaries), k))
+    {
+      candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
+      candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
+      continue;
+    }
+    ++k;
+  }
+}
+
 /** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
 {
@@ -199,6 +214,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   {
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
   }
+  removeBlur(candidate);
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
   addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                       rings.radii);
