@@ -34,6 +34,12 @@ class EdgelMap
     return threshold_;
   }
 
+  /** Edgels looked at so far: the measure of the work done. */
+  std::size_t looks() const
+  {
+    return looks_;
+  }
+
   /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
   template <typename Visitor>
   void visit(double left, double top, double right, double bottom, Visitor&& visitor)
@@ -43,7 +49,9 @@ class EdgelMap
     {
       for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
       {
-        for (const Edgel& edgel : tile(col, row))
+        const std::vector<Edgel>& edgels = tile(col, row);
+        looks_ += edgels.size();
+        for (const Edgel& edgel : edgels)
         {
           if (edgel.x >= left && edgel.x <= right && edgel.y >= top && edgel.y <= bottom)
           {
@@ -66,6 +74,7 @@ class EdgelMap
 
   cv::Mat bgr_;
   float threshold_ = 0;
+  std::size_t looks_ = 0;
   cv::Size grid_;
   std::vector<Tile> tiles_;
 };

@@ -242,9 +242,10 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   const bool fits = rings.rms < .25 + .0025 * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {
-    return many && radius > LARGE_RADIUS && candidate.visible > LEAST_VISIBLE && fits && candidate.evidence > .74;
+    // Half-hidden targets that fit worse are off by a tenth of a ring and more.
+    return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
   }
-  return (fits_well && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
+  return (fits_well && candidate.evidence > (many ? .7 : .8)) || (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 }  // namespace omr
