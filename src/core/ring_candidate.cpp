@@ -245,7 +245,8 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     // Half-hidden targets that fit worse are off by a tenth of a ring and more.
     return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
   }
-  return (fits_well && candidate.evidence > (many ? .7 : .8)) || (fits && candidate.evidence > (many ? .74 : .8));
+  const bool fits_closely = rings.rms < .12 + .0006 * radius;
+  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 }  // namespace omr
