@@ -242,7 +242,7 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions)
   return pieces;
 }
 
-bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
+bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& votes)
 {
   const double side = std::max(piece.box.width, piece.box.height);
   const double margin = std::max(4., .25 * side);
@@ -280,19 +280,20 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed)
     if (nullVector(rows, solution) && toFamily(solution, origin, scale, family) &&
         cv::norm(family.center - origin) < farthest)
     {
-      const Votes votes = countVotes(family, voters, best);
-      if (votes.score() > best.score())
+      const Votes support = countVotes(family, voters, best);
+      if (support.score() > best.score())
       {
-        best = votes;
+        best = support;
         seed.family = family;
         // Enough to have drawn four inliers once with a probability of 95 %.
-        const double share = votes.inliers / static_cast<double>(voters.size());
+        const double share = support.inliers / static_cast<double>(voters.size());
         const double needed = std::log(.05) / std::log(1 - std::min(.99, share * share * share * share));
         draws = static_cast<int>(std::clamp<double>(needed, MIN_DRAWS, MAX_DRAWS));
       }
     }
   }
-  if (best.score() < MIN_SCORE * static_cast<double>(voters.size()))
+  votes = best.score() / static_cast<double>(voters.size());
+  if (votes < MIN_SCORE)
   {
     return false;
   }

@@ -20,7 +20,7 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions);
  *
  * @return false if the edges are straight or no family explains enough of them.
  */
-bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed);
+bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& votes);
 
 }  // namespace omr
 

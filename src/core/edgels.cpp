@@ -29,7 +29,8 @@ constexpr float KERNEL_SUM = 16;  // of the 3x3 Gaussian, which the 5x5 kernels 
 constexpr float NOISE_FACTOR = 3;
 constexpr float LOWEST_THRESHOLD = 12;
 constexpr float HIGHEST_THRESHOLD = 28;
-constexpr int NOISE_SAMPLES = 6;  // tiles along each side of the picture
+constexpr std::size_t TILE_LOOKS = 100;  // that computing a tile takes the time of
+constexpr int NOISE_SAMPLES = 6;         // tiles along each side of the picture
 
 struct GradientTile
 {
@@ -201,8 +202,9 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
 }
 }  // namespace
 
-EdgelMap::EdgelMap(const cv::Mat& bgr)
+EdgelMap::EdgelMap(const cv::Mat& bgr, std::size_t max_looks)
     : bgr_(bgr),
+      max_looks_(max_looks),
       grid_((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE),
       tiles_(static_cast<std::size_t>(grid_.area()))
 {
@@ -226,6 +228,7 @@ const std::vector<Edgel>& EdgelMap::tile(int col, int row)
   if (!tile.computed)
   {
     tile.computed = true;
+    looks_ += TILE_LOOKS;
     GradientTile gradients;
     computeGradients(bgr_, col * TILE, row * TILE, gradients);
     // The picture's outermost pixels have no neighbours to compare with.

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_EDGELS_H
 #define OUTDOOR_OMR_CORE_EDGELS_H
 
+#include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -24,9 +25,10 @@ class EdgelMap
 {
  public:
   /**
-   * @param bgr H x W, CV_8UC3, not empty; shared, not copied.
+   * @param bgr       H x W, CV_8UC3, not empty; shared, not copied.
+   * @param max_looks after so many the work is to end; isSpent() tells.
    */
-  explicit EdgelMap(const cv::Mat& bgr);
+  explicit EdgelMap(const cv::Mat& bgr, std::size_t max_looks = std::numeric_limits<std::size_t>::max());
 
   /** Weakest magnitude of an edgel [grey levels]: follows the noise of the picture. */
   float threshold() const
@@ -34,10 +36,20 @@ class EdgelMap
     return threshold_;
   }
 
-  /** Edgels looked at so far: the measure of the work done. */
+  /** Edgels looked at so far, a tile computed counting as a hundred: the measure of the work done. */
   std::size_t looks() const
   {
     return looks_;
+  }
+
+  bool isSpent() const
+  {
+    return looks_ > max_looks_;
+  }
+
+  void setMaxLooks(std::size_t max_looks)
+  {
+    max_looks_ = max_looks;
   }
 
   /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
@@ -75,6 +87,7 @@ class EdgelMap
   cv::Mat bgr_;
   float threshold_ = 0;
   std::size_t looks_ = 0;
+  std::size_t max_looks_ = 0;
   cv::Size grid_;
   std::vector<Tile> tiles_;
 };

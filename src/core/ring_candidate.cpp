@@ -246,7 +246,8 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
   }
   const bool fits_closely = rings.rms < .12 + .0006 * radius;
-  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
+  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) ||
+         (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 }  // namespace omr

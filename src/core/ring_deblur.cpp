@@ -18,11 +18,12 @@ constexpr int DIRECTIONS = 32;     // of the integral over a disk
 // A further boundary must explain this much: of 718 rings narrower than 7 px and without one, the best imagined one
 // explains .023 of the contrast, and six of seven that hide one .027 to .065.
 constexpr double LEAST_EXPLAINED = .025;  // fall of the root mean square, relative to the strongest contrast
-constexpr double NOTHING_EXPLAINED = .005;  // by 5 false ones; 727 true ones within 6 px of another explain .006 and more
-constexpr double MOST_LEFT = .6;          // of the root mean square
-constexpr double MERGED_WIDTH = 1.6;      // of the narrowest ring: least width of two
-constexpr double NARROWEST = 2;           // ring [px]
-constexpr double SEARCH_STEP = .5;        // [px]
+constexpr double NOTHING_EXPLAINED =
+    .005;                             // by 5 false ones; 727 true ones within 6 px of another explain .006 and more
+constexpr double MOST_LEFT = .6;      // of the root mean square
+constexpr double MERGED_WIDTH = 1.6;  // of the narrowest ring: least width of two
+constexpr double NARROWEST = 2;       // ring [px]
+constexpr double SEARCH_STEP = .5;    // [px]
 
 /** Share of the light of a disk of this radius that a point at distance r from its centre receives through the blur. */
 double blurredDisk(double r, double radius, double deviation)
