@@ -52,14 +52,22 @@ class EdgelMap
     max_looks_ = max_looks;
   }
 
-  /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
+  /**
+   * Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom.
+   *
+   * @param max_tiles along a side: of larger areas, tiles spread evenly are visited.
+   */
   template <typename Visitor>
-  void visit(double left, double top, double right, double bottom, Visitor&& visitor)
+  void visit(double left, double top, double right, double bottom, Visitor&& visitor,
+             int max_tiles = std::numeric_limits<int>::max())
   {
     const cv::Rect tiles = tilesOf(left, top, right, bottom);
-    for (int row = tiles.y; row < tiles.y + tiles.height; ++row)
+    const int row_step = (tiles.height - 1) / max_tiles + 1;
+    const int col_step = (tiles.width - 1) / max_tiles + 1;
+    for (int row = tiles.y; row < tiles.y + tiles.height; row += row_step)
     {
-      for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
+      // Shifted from row to row, so that upright edges are met as well.
+      for (int col = tiles.x + (row / row_step) % col_step; col < tiles.x + tiles.width; col += col_step)
       {
         const std::vector<Edgel>& edgels = tile(col, row);
         looks_ += edgels.size();

@@ -16,7 +16,7 @@ constexpr double UNDISPUTED = .85;  // evidence x visible share of a candidate t
 
 // A picture with targets takes .05 to .4 looks a pixel, clutter up to 3.
 constexpr double LOOKS_PER_PIXEL = .6;
-constexpr double MIN_LOOKS = 400000;    // small pictures take more a pixel
+constexpr double MIN_LOOKS = 1200000;  // seven targets take 500000, however small the picture
 
 // Of the looks may be spent after the round seeds that share their centre with others, the pieces with many votes, the
 // other round seeds. In clutter the votes are .22 to .26, in targets .25 to .83.
