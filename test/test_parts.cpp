@@ -68,6 +68,16 @@ TEST(Parts, poseTurnsAboutFixedAxesInTheirOrder)
   EXPECT_EQ(part.checkerboards[0].pose.translation(), cv::Vec3d(1, 2, 3));
 }
 
+TEST(Parts, poseTakesAQuaternion)
+{
+  // Half a turn about x + y swaps the two.
+  const Part part =
+      parse(partWith("[{rows: 7, cols: 10, square: 0.02, "
+                     "pose: {xyz: [0, 0, 0], quaternion: [0.7071, 0.7071, 0, 0]}}]"))[0];
+  const cv::Vec3d turned = part.checkerboards[0].pose.rotation() * cv::Vec3d(1, 0, 0);
+  EXPECT_LT(cv::norm(turned - cv::Vec3d(0, 1, 0)), 1e-4);
+}
+
 TEST(Parts, innerCornersAreOrderedRowByRowAboutTheMiddle)
 {
   const std::vector<cv::Point3d> corners = innerCorners(parse(partWith("[" + BOARD + "]"))[0].checkerboards[0]);
@@ -160,11 +170,16 @@ TEST(Parts, mistakesAreNamed)
       {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {xyz: [1, 2, 300]}}]"),
        "pose.xyz[2]: expected three positions in metres, each -50 to 50, not '300'"},
       {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {rpy: [0, 0, 0]}}]"),
-       "pose: there is no key 'rpy': expected one of xyz, rpy_degrees"},
+       "pose: there is no key 'rpy': expected one of xyz, rpy_degrees, quaternion"},
       {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {rpy_degrees: [0, 0, 0]}}]"),
        "pose: the key 'xyz' is missing"},
       {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {xyz: [0, 0, 0], rpy_degrees: [0, 0, 400]}}]"),
        "pose.rpy_degrees[2]: expected roll, pitch and yaw in degrees, each -360 to 360, not '400'"},
+      {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {xyz: [0, 0, 0], quaternion: [0, 0, 1, 1]}}]"),
+       "pose.quaternion: expected a quaternion x, y, z, w of length 1; its length is 1.414214, not 1"},
+      {partWith("[{rows: 7, cols: 10, square: 0.02, pose: {xyz: [0, 0, 0], rpy_degrees: [0, 0, 0], quaternion: [0, 0, "
+                "0, 1]}}]"),
+       "pose.quaternion: the turn is given twice: keep 'rpy_degrees' or 'quaternion'"},
       {partWith("[{rows: 7, cols: 10, square: 0.02, surface: plane}]"),
        "surface: expected a map with the key 'cylinder'; without 'surface' a board is flat"},
       {partWith("[{rows: 7, cols: 10, square: 0.02, surface: {axis: x}}]"),

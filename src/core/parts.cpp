@@ -6,6 +6,7 @@
 
 #include "board_surface.h"
 #include "yaml_file.h"
+#include "yaml_pose.h"
 
 namespace omr
 {
@@ -18,49 +19,12 @@ constexpr double MIN_RING = 0.0005;
 constexpr double MAX_RING = 0.5;
 constexpr double MIN_RADIUS = 0.01;
 constexpr double MAX_RADIUS = 100;
-constexpr double MAX_POSITION = 50;
 constexpr int MIN_ROWS = 5;  // squares, as the detector's (paper, section 3.4: 5x7 to 21x21)
 constexpr int MIN_COLS = 7;
 constexpr int MAX_SIDE = 21;
 constexpr std::size_t MIN_RINGS = 2;
 constexpr std::size_t MAX_RINGS = 9;
 constexpr double TOUCH = 1e-6;  // [m]; markers that share an edge do not overlap
-
-constexpr const char* METRES = "three positions in metres, each -50 to 50";
-
-cv::Vec3d readVector(const YamlFile& node, const std::string& expected, double bound)
-{
-  cv::Vec3d vector;
-  int i = 0;
-  for (const YamlFile& entry : node.list(expected, 3))
-  {
-    vector[i++] = entry.number(expected, -bound, bound);
-  }
-  return vector;
-}
-
-/** The pose of the key 'pose', the identity if there is none. */
-cv::Affine3d readPose(const YamlFile& marker)
-{
-  if (!marker.has("pose"))
-  {
-    return cv::Affine3d::Identity();
-  }
-  const YamlFile pose = marker.get("pose", "a pose");
-  pose.allowOnly({"xyz", "rpy_degrees"}, "a map with 'xyz' and 'rpy_degrees'");
-  const cv::Vec3d position = readVector(pose.get("xyz", METRES), METRES, MAX_POSITION);
-  cv::Vec3d turn(0, 0, 0);
-  if (pose.has("rpy_degrees"))
-  {
-    const std::string expected = "roll, pitch and yaw in degrees, each -360 to 360";
-    turn = readVector(pose.get("rpy_degrees", expected), expected, 360) * (CV_PI / 180);
-  }
-  // Roll, pitch, yaw about the fixed axes x, y, z, as in URDF.
-  const cv::Affine3d roll(cv::Vec3d(turn[0], 0, 0));
-  const cv::Affine3d pitch(cv::Vec3d(0, turn[1], 0));
-  const cv::Affine3d yaw(cv::Vec3d(0, 0, turn[2]));
-  return {(yaw * pitch * roll).rotation(), position};
-}
 
 bool readChoice(const YamlFile& map, const std::string& key, const std::string& usual, const std::string& other)
 {
@@ -110,7 +74,7 @@ PartCheckerboard readCheckerboard(const YamlFile& node)
   }
   const std::string square = "the side of a square in metres, 0.001 to 1";
   board.square = node.get("square", square).number(square, MIN_SQUARE, MAX_SQUARE);
-  board.pose = readPose(node);
+  board.pose = node.has("pose") ? readPose(node.get("pose", "a pose")) : cv::Affine3d::Identity();
   if (node.has("surface"))
   {
     readSurface(node.get("surface", "a surface"), board);
@@ -140,7 +104,7 @@ PartTarget readTarget(const YamlFile& node)
   }
   const std::string ring = "the width of a ring in metres, 0.0005 to 0.5";
   target.ring = node.get("ring", ring).number(ring, MIN_RING, MAX_RING);
-  target.center = cv::Point3d(readVector(node.get("xyz", METRES), METRES, MAX_POSITION));
+  target.center = cv::Point3d(readPosition(node.get("xyz", POSITION_IN_METRES)));
   return target;
 }
 

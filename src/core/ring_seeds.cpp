@@ -110,9 +110,8 @@ std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions)
   std::stable_sort(seeds.begin(), seeds.end(),
                    [](const RingSeed& left, const RingSeed& right) { return left.radius < right.radius; });
   countConcentric(seeds);
-  std::stable_sort(seeds.begin(), seeds.end(), [](const RingSeed& left, const RingSeed& right) {
-    return left.companions > right.companions;
-  });
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [](const RingSeed& left, const RingSeed& right) { return left.companions > right.companions; });
   return seeds;
 }
 

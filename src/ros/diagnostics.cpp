@@ -1,17 +1,12 @@
 #include "diagnostics.h"
 
-#include <ros/console.h>
-
-#include "caught.h"
-
 namespace omr
 {
 namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double REPORT_PERIOD = 1.0;  // [s], REP 107
-constexpr double PATIENCE = 5.0;       // [s] without an image before a warning: no camera runs at less than 0.2 Hz
+constexpr double PATIENCE = 5.0;  // [s] without an image before a warning: no camera runs at less than 0.2 Hz
 
 double secondsBetween(std::chrono::steady_clock::time_point start, std::chrono::steady_clock::time_point end)
 {
@@ -24,14 +19,8 @@ Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& priva
     : device_(pipeline.deviceName()),
       fallback_reason_(pipeline.fallbackReason()),
       last_report_(Clock::now()),
-      updater_(nh, private_nh, name)
+      report_(nh, private_nh, name, "marker detection", device_, [this](auto& status) { report(status); })
 {
-  updater_.setHardwareID(device_);
-  updater_.add("marker detection", this, &Diagnostics::report);
-  timer_ = nh.createWallTimer(ros::WallDuration(REPORT_PERIOD), [this](const ros::WallTimerEvent& /*event*/) {
-    const std::string error = caught([this] { updater_.force_update(); });
-    ROS_ERROR_COND(!error.empty(), "diagnostics: %s", error.c_str());
-  });
 }
 
 void Diagnostics::subscribed(const std::string& topic)

@@ -1,7 +1,6 @@
 #ifndef OUTDOOR_OMR_ROS_DIAGNOSTICS_H
 #define OUTDOOR_OMR_ROS_DIAGNOSTICS_H
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
 #include <chrono>
@@ -12,6 +11,7 @@
 
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/step_time.h"
+#include "status_report.h"
 
 namespace omr
 {
@@ -65,8 +65,7 @@ class Diagnostics
   std::uint64_t refused_reported_ = 0;
   double rate_ = 0;  // images processed a second
 
-  diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
+  StatusReport report_;  // the last member: it reports what stands above
 };
 
 }  // namespace omr

@@ -1,13 +1,12 @@
 #include "part_messages.h"
 
-#include <tf2/LinearMath/Matrix3x3.h>
-#include <tf2/LinearMath/Quaternion.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
+
+#include "pose_messages.h"
 
 namespace omr
 {
@@ -15,35 +14,11 @@ namespace
 {
 using visualization_msgs::Marker;
 
-geometry_msgs::Quaternion toQuaternion(const cv::Matx33d& rotation)
-{
-  const cv::Matx33d& r = rotation;
-  tf2::Quaternion q;
-  tf2::Matrix3x3(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)).getRotation(q);
-  geometry_msgs::Quaternion message;
-  message.w = q.w();
-  message.x = q.x();
-  message.y = q.y();
-  message.z = q.z();
-  return message;
-}
-
-geometry_msgs::Point toPoint(const cv::Point3d& point)
-{
-  geometry_msgs::Point message;
-  message.x = point.x;
-  message.y = point.y;
-  message.z = point.z;
-  return message;
-}
-
 outdoor_omr::Part toMessage(const PartPose& located)
 {
   outdoor_omr::Part message;
   message.name = located.part;
-  message.pose.pose.position = toPoint(cv::Point3d(located.pose.camera_part.translation()));
-  message.pose.pose.orientation = toQuaternion(located.pose.camera_part.rotation());
-  std::copy(located.pose.covariance.val, located.pose.covariance.val + 36, message.pose.covariance.begin());
+  message.pose = toMessage(PoseEstimate{located.pose.camera_part, located.pose.covariance});
   message.checkerboards.assign(located.checkerboards.begin(), located.checkerboards.end());
   message.targets.assign(located.targets.begin(), located.targets.end());
   message.points = static_cast<std::uint32_t>(std::count(located.pose.used.begin(), located.pose.used.end(), true));

@@ -1,17 +1,12 @@
 #include "position_diagnostics.h"
 
-#include <ros/console.h>
-
-#include "caught.h"
-
 namespace omr
 {
 namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double REPORT_PERIOD = 1.0;  // [s], REP 107
-constexpr double PATIENCE = 5.0;       // [s] without a message before a warning
+constexpr double PATIENCE = 5.0;  // [s] without a message before a warning
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -21,14 +16,8 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 
 PositionDiagnostics::PositionDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
                                          const std::string& name)
-    : updater_(nh, private_nh, name)
+    : report_(nh, private_nh, name, "position of parts", "none", [this](auto& status) { report(status); })
 {
-  updater_.setHardwareID("none");
-  updater_.add("position of parts", this, &PositionDiagnostics::report);
-  timer_ = nh.createWallTimer(ros::WallDuration(REPORT_PERIOD), [this](const ros::WallTimerEvent& /*event*/) {
-    const std::string error = caught([this] { updater_.force_update(); });
-    ROS_ERROR_COND(!error.empty(), "diagnostics: %s", error.c_str());
-  });
 }
 
 void PositionDiagnostics::markersCame()

@@ -1,13 +1,14 @@
 #ifndef OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
 #define OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
 #include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
+
+#include "status_report.h"
 
 namespace omr
 {
@@ -48,8 +49,7 @@ class PositionDiagnostics
   int parts_ = 0;
   int ambiguous_ = 0;
 
-  diagnostic_updater::Updater updater_;
-  ros::WallTimer timer_;
+  StatusReport report_;  // the last member: it reports what stands above
 };
 
 }  // namespace omr

@@ -8,52 +8,18 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/affine.hpp>
 
-#include "render.h"
+#include "board_view.h"
 #include "ros_test.h"
 
 using outdoor_omr::PartArray;
+using ros_test::cameraInfo;
 using ros_test::Listener;
 using ros_test::toMessage;
+using ros_test::view;
 using ros_test::waitFor;
 
 namespace
 {
-const cv::Size SIZE(800, 600);
-const cv::Matx33d MATRIX(900, 0, 399.5, 0, 900, 299.5, 0, 0, 1);
-constexpr double SQUARE = 0.03;  // [m], as in position_parts.yaml
-
-sensor_msgs::CameraInfo cameraInfo()
-{
-  sensor_msgs::CameraInfo info;
-  info.width = SIZE.width;
-  info.height = SIZE.height;
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.);
-  for (int i = 0; i < 9; ++i)
-  {
-    info.K[i] = MATRIX.val[i];
-    info.P[4 * (i / 3) + i % 3] = MATRIX.val[i];
-  }
-  return info;
-}
-
-/** The camera's view of a flat board whose frame is in its middle. */
-cv::Mat view(int rows, int cols, const cv::Affine3d& camera_board)
-{
-  const cv::Matx33d rotation = camera_board.rotation();
-  const cv::Vec3d corner = camera_board * cv::Vec3d(-0.5 * cols * SQUARE, -0.5 * rows * SQUARE, 0);
-  cv::Matx33d squares_to_camera;
-  for (int i = 0; i < 3; ++i)
-  {
-    squares_to_camera(i, 0) = rotation(i, 0) * SQUARE;
-    squares_to_camera(i, 1) = rotation(i, 1) * SQUARE;
-    squares_to_camera(i, 2) = corner[i];
-  }
-  omr::test::Render render(SIZE);
-  render.addBoard(rows, cols, MATRIX * squares_to_camera);
-  return render.picture();
-}
-
 class Position : public testing::Test
 {
  protected:

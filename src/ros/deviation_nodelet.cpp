@@ -1,0 +1,200 @@
+#include <nodelet/nodelet.h>
+#include <outdoor_omr/DeviationArray.h>
+#include <outdoor_omr/PartArray.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "caught.h"
+#include "outdoor_omr/deviation.h"
+#include "pose_messages.h"
+#include "status_report.h"
+
+namespace omr
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double DEGREES = 180 / CV_PI;
+constexpr double MILLIMETRES = 1000;
+constexpr double PATIENCE = 5;      // [s] without a message before a warning
+constexpr double MAX_TIMEOUT = 10;  // [s]
+
+/** A deviation of which nothing is known yet. */
+outdoor_omr::Deviation unknown(const Goal& goal)
+{
+  constexpr double NOT_KNOWN = std::numeric_limits<double>::quiet_NaN();
+  outdoor_omr::Deviation message;
+  message.part = goal.part;
+  message.frame_id = goal.frame;
+  message.translation_mm = message.rotation_deg = toVector(cv::Vec3d::all(NOT_KNOWN));
+  message.distance_mm = message.angle_deg = NOT_KNOWN;
+  message.distance_uncertainty_mm = message.angle_uncertainty_deg = NOT_KNOWN;
+  message.tolerance_mm = goal.position_tolerance * MILLIMETRES;
+  message.tolerance_deg = goal.rotation_tolerance * DEGREES;
+  message.verdict = outdoor_omr::Deviation::UNKNOWN;
+  return message;
+}
+
+std::uint8_t toMessage(Verdict verdict)
+{
+  switch (verdict)
+  {
+    case Verdict::WITHIN:
+      return outdoor_omr::Deviation::WITHIN;
+    case Verdict::OUTSIDE:
+      return outdoor_omr::Deviation::OUTSIDE;
+    case Verdict::UNDECIDED:
+      break;
+  }
+  return outdoor_omr::Deviation::UNDECIDED;
+}
+
+/** Why a part is not among the certain ones. */
+std::string reasonWithout(const std::string& part, const outdoor_omr::PartArray& parts)
+{
+  const auto is_candidate = [&](const outdoor_omr::Sighting& sighting) {
+    return std::any_of(sighting.candidates.begin(), sighting.candidates.end(),
+                       [&](const outdoor_omr::Part& candidate) { return candidate.name == part; });
+  };
+  return std::any_of(parts.ambiguous.begin(), parts.ambiguous.end(), is_candidate)
+             ? "ambiguous: several parts or poses fit what is seen"
+             : "not in view";
+}
+}  // namespace
+
+/** Positions of parts in, deviations from their goals out. */
+class DeviationNodelet : public nodelet::Nodelet
+{
+ private:
+  void onInit() override
+  {
+    const std::string error = caught([this] { start(); });
+    if (!error.empty())
+    {
+      NODELET_FATAL("The deviation of parts cannot start: %s", error.c_str());
+      throw std::runtime_error(error);
+    }
+  }
+
+  void start()
+  {
+    ros::NodeHandle& nh = getNodeHandle();
+    ros::NodeHandle& private_nh = getPrivateNodeHandle();
+    const auto file = private_nh.param<std::string>("goals", "");
+    if (file.empty())
+    {
+      throw std::invalid_argument(
+          "parameter ~goals: expected the path of a goals file; config/goals.yaml is an example");
+    }
+    goals_ = readGoals(file);
+    const double timeout = private_nh.param("tf_timeout", 0.1);
+    if (!(timeout >= 0 && timeout <= MAX_TIMEOUT))
+    {
+      throw std::invalid_argument("parameter ~tf_timeout: expected 0 to 10 seconds, not " + std::to_string(timeout));
+    }
+    patience_ = ros::Duration(timeout);
+    NODELET_INFO("%zu goals in %s", goals_.size(), file.c_str());
+    report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
+                                             [this](auto& status) { report(status); });
+    publisher_ = private_nh.advertise<outdoor_omr::DeviationArray>("deviations", 1);
+    parts_ = nh.subscribe<outdoor_omr::PartArray>(
+        "parts", 10, [this](const outdoor_omr::PartArrayConstPtr& parts) { receive(*parts); });
+  }
+
+  void receive(const outdoor_omr::PartArray& parts)
+  {
+    const std::string error = caught([&] { publish(parts); });
+    NODELET_ERROR_COND(!error.empty(), "No deviation of parts: %s", error.c_str());
+  }
+
+  void publish(const outdoor_omr::PartArray& parts)
+  {
+    outdoor_omr::DeviationArray message;
+    message.header = parts.header;
+    for (const Goal& goal : goals_)
+    {
+      outdoor_omr::Deviation deviation = unknown(goal);
+      // A part whose frame TF does not know costs its own deviation, not that of the others.
+      deviation.reason = caught([&] { measure(goal, parts, deviation); });
+      message.deviations.push_back(deviation);
+    }
+    publisher_.publish(message);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_ = message;
+    last_time_ = ros::SteadyTime::now();
+  }
+
+  void measure(const Goal& goal, const outdoor_omr::PartArray& parts, outdoor_omr::Deviation& message) const
+  {
+    const auto part = std::find_if(parts.parts.begin(), parts.parts.end(),
+                                   [&](const outdoor_omr::Part& candidate) { return candidate.name == goal.part; });
+    if (part == parts.parts.end())
+    {
+      throw std::runtime_error(reasonWithout(goal.part, parts));
+    }
+    PoseEstimate estimate = fromMessage(part->pose);
+    if (goal.frame != parts.header.frame_id)
+    {
+      estimate = transformed(
+          estimate,
+          fromMessage(
+              buffer_.lookupTransform(goal.frame, parts.header.frame_id, parts.header.stamp, patience_).transform));
+    }
+    const Deviation deviation = deviationFrom(goal, estimate);
+    message.translation_mm = toVector(deviation.translation * MILLIMETRES);
+    message.distance_mm = cv::norm(deviation.translation) * MILLIMETRES;
+    message.rotation_deg = toVector(deviation.rotation * DEGREES);
+    message.angle_deg = cv::norm(deviation.rotation) * DEGREES;
+    message.distance_uncertainty_mm = deviation.position_uncertainty * MILLIMETRES;
+    message.angle_uncertainty_deg = deviation.rotation_uncertainty * DEGREES;
+    message.verdict = toMessage(deviation.verdict);
+  }
+
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const double silence = (ros::SteadyTime::now() - last_time_).toSec();
+    int measured = 0;
+    for (const outdoor_omr::Deviation& deviation : last_.deviations)
+    {
+      measured += deviation.verdict != outdoor_omr::Deviation::UNKNOWN ? 1 : 0;
+      status.add(deviation.part, deviation.reason.empty() ? std::to_string(deviation.distance_mm) + " mm, " +
+                                                                std::to_string(deviation.angle_deg) + " degrees"
+                                                          : deviation.reason);
+    }
+    if (silence > PATIENCE)
+    {
+      status.summaryf(DiagnosticStatus::WARN, "No parts for %.0f s.", silence);
+      return;
+    }
+    status.summaryf(measured < static_cast<int>(goals_.size()) ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                    "%d of %zu parts measured.", measured, goals_.size());
+  }
+
+  std::vector<Goal> goals_;
+  ros::Duration patience_;
+  std::mutex mutex_;
+  outdoor_omr::DeviationArray last_;
+  ros::SteadyTime last_time_ = ros::SteadyTime::now();
+  ros::Publisher publisher_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_{buffer_};  // has a thread of its own: a wait for TF does not keep TF away
+
+  // Destroyed first: no callback outlives what it uses.
+  std::unique_ptr<StatusReport> report_;
+  ros::Subscriber parts_;
+};
+
+}  // namespace omr
+
+PLUGINLIB_EXPORT_CLASS(omr::DeviationNodelet, nodelet::Nodelet)
