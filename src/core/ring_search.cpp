@@ -11,8 +11,9 @@ namespace omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 50;      // that are looked at
-constexpr double UNDISPUTED = .85;  // evidence x visible share of a candidate that no other seed will better
+constexpr int MAX_PIECES = 50;              // that are looked at
+constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
+constexpr double UNDISPUTED_EVIDENCE = .9;  // of a half-hidden one
 
 // A picture with targets takes .05 to .4 looks a pixel, clutter up to 3.
 constexpr double LOOKS_PER_PIXEL = .6;
@@ -41,6 +42,11 @@ bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards
   return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
     return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
   });
+}
+
+bool isUndisputed(const RingCandidate& candidate)
+{
+  return candidate.evidence * candidate.visible > UNDISPUTED || candidate.evidence > UNDISPUTED_EVIDENCE;
 }
 
 double score(const RingCandidate& candidate)
@@ -80,7 +86,7 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
   const auto is_taken = [&](const cv::Point2d& point) {
     return isOnBoard(point, boards) ||
            std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
-             return candidate.evidence * candidate.visible > UNDISPUTED && contains(candidate, point);
+             return isUndisputed(candidate) && contains(candidate, point);
            });
   };
   const auto try_seed = [&](const RingSeed& seed, bool is_boundary) {
