@@ -18,9 +18,10 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions);
  * Family of concentric circles from the edges of a piece and its surroundings, without saying which edge belongs to
  * which circle: all circles of a family share centre and shape, so four edgels of any of them determine it (RANSAC).
  *
- * @return false if the edges are straight or no family explains enough of them.
+ * @param votes receives the share of the edges that the family explains, weighted by the directions they cover [0, 1].
+ * @return      false if the edges are straight or no family explains enough of them.
  */
-bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed);
+bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& votes);
 
 }  // namespace omr
 

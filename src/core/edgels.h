@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_EDGELS_H
 #define OUTDOOR_OMR_CORE_EDGELS_H
 
+#include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -24,9 +25,10 @@ class EdgelMap
 {
  public:
   /**
-   * @param bgr H x W, CV_8UC3, not empty; shared, not copied.
+   * @param bgr       H x W, CV_8UC3, not empty; shared, not copied.
+   * @param max_looks after so many the work is to end; isSpent() tells.
    */
-  explicit EdgelMap(const cv::Mat& bgr);
+  explicit EdgelMap(const cv::Mat& bgr, std::size_t max_looks = std::numeric_limits<std::size_t>::max());
 
   /** Weakest magnitude of an edgel [grey levels]: follows the noise of the picture. */
   float threshold() const
@@ -34,16 +36,42 @@ class EdgelMap
     return threshold_;
   }
 
-  /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
+  /** Edgels looked at so far, a tile computed counting as a hundred: the measure of the work done. */
+  std::size_t looks() const
+  {
+    return looks_;
+  }
+
+  bool isSpent() const
+  {
+    return looks_ > max_looks_;
+  }
+
+  void setMaxLooks(std::size_t max_looks)
+  {
+    max_looks_ = max_looks;
+  }
+
+  /**
+   * Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom.
+   *
+   * @param max_tiles along a side: of larger areas, tiles spread evenly are visited.
+   */
   template <typename Visitor>
-  void visit(double left, double top, double right, double bottom, Visitor&& visitor)
+  void visit(double left, double top, double right, double bottom, Visitor&& visitor,
+             int max_tiles = std::numeric_limits<int>::max())
   {
     const cv::Rect tiles = tilesOf(left, top, right, bottom);
-    for (int row = tiles.y; row < tiles.y + tiles.height; ++row)
+    const int row_step = (tiles.height - 1) / max_tiles + 1;
+    const int col_step = (tiles.width - 1) / max_tiles + 1;
+    for (int row = tiles.y; row < tiles.y + tiles.height; row += row_step)
     {
-      for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
+      // Shifted from row to row, so that upright edges are met as well.
+      for (int col = tiles.x + (row / row_step) % col_step; col < tiles.x + tiles.width; col += col_step)
       {
-        for (const Edgel& edgel : tile(col, row))
+        const std::vector<Edgel>& edgels = tile(col, row);
+        looks_ += edgels.size();
+        for (const Edgel& edgel : edgels)
         {
           if (edgel.x >= left && edgel.x <= right && edgel.y >= top && edgel.y <= bottom)
           {
@@ -66,6 +94,8 @@ class EdgelMap
 
   cv::Mat bgr_;
   float threshold_ = 0;
+  std::size_t looks_ = 0;
+  std::size_t max_looks_ = 0;
   cv::Size grid_;
   std::vector<Tile> tiles_;
 };

@@ -143,9 +143,6 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   return boundary;
 }
 
-namespace
-{
-/** Whether a boundary may be only the blurred hue of a stronger one beside it. */
 bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
 {
   const Boundary& boundary = boundaries[k];
@@ -156,6 +153,8 @@ bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
          ((k > 0 && is_stronger(boundaries[k - 1])) || (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
 }
 
+namespace
+{
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
 double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {

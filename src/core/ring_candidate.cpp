@@ -110,6 +110,21 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
+/** Removes what the blur of other boundaries explains. */
+void removeBlur(RingCandidate& candidate)
+{
+  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
+  {
+    if (isBesideStronger(candidate.boundaries, k) && isBlur(candidate.profile, radiiOf(candidate.boundaries), k))
+    {
+      candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
+      candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
+      continue;
+    }
+    ++k;
+  }
+}
+
 /** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
 {
@@ -199,6 +214,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   {
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
   }
+  removeBlur(candidate);
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
   addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                       rings.radii);
@@ -226,9 +242,12 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   const bool fits = rings.rms < .25 + .0025 * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {
-    return many && radius > LARGE_RADIUS && candidate.visible > LEAST_VISIBLE && fits && candidate.evidence > .74;
+    // Half-hidden targets that fit worse are off by a tenth of a ring and more.
+    return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
   }
-  return (fits_well && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
+  const bool fits_closely = rings.rms < .12 + .0006 * radius;
+  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) ||
+         (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 }  // namespace omr

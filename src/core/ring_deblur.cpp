@@ -18,10 +18,12 @@ constexpr int DIRECTIONS = 32;     // of the integral over a disk
 // A further boundary must explain this much: of 718 rings narrower than 7 px and without one, the best imagined one
 // explains .023 of the contrast, and six of seven that hide one .027 to .065.
 constexpr double LEAST_EXPLAINED = .025;  // fall of the root mean square, relative to the strongest contrast
-constexpr double MOST_LEFT = .6;          // of the root mean square
-constexpr double MERGED_WIDTH = 1.6;      // of the narrowest ring: least width of two
-constexpr double NARROWEST = 2;           // ring [px]
-constexpr double SEARCH_STEP = .5;        // [px]
+constexpr double NOTHING_EXPLAINED =
+    .005;                             // by 5 false ones; 727 true ones within 6 px of another explain .006 and more
+constexpr double MOST_LEFT = .6;      // of the root mean square
+constexpr double MERGED_WIDTH = 1.6;  // of the narrowest ring: least width of two
+constexpr double NARROWEST = 2;       // ring [px]
+constexpr double SEARCH_STEP = .5;    // [px]
 
 /** Share of the light of a disk of this radius that a point at distance r from its centre receives through the blur. */
 double blurredDisk(double r, double radius, double deviation)
@@ -145,6 +147,17 @@ Fit fitRings(const std::vector<cv::Vec3d>& samples, double step, const std::vect
   return fit;
 }
 
+/** Largest difference of two neighbours [grey levels]. */
+double strongestContrast(const Fit& fit)
+{
+  double contrast = 0;
+  for (std::size_t k = 0; k + 1 < fit.colors.size(); ++k)
+  {
+    contrast = std::max(contrast, cv::norm(fit.colors[k] - fit.colors[k + 1]));
+  }
+  return contrast;
+}
+
 std::vector<cv::Vec3d> samplesWithin(const RingProfile& profile, const std::vector<double>& radii)
 {
   const int count = std::min(profile.count, static_cast<int>((radii.back() + SURROUNDING) / profile.step));
@@ -166,18 +179,23 @@ std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::ve
   return colors;
 }
 
+bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
+{
+  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  std::vector<double> others = radii;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+  const Fit with = fitRings(samples, profile.step, radii);
+  const Fit without = fitRings(samples, profile.step, others);
+  return without.rms - with.rms < NOTHING_EXPLAINED * strongestContrast(with);
+}
+
 double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii)
 {
   const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
   const Fit whole = fitRings(samples, profile.step, radii);
-  double contrast = 0;
   const double narrowest = narrowestRing(radii);
-  for (std::size_t k = 0; k + 1 < whole.colors.size(); ++k)
-  {
-    contrast = std::max(contrast, cv::norm(whole.colors[k] - whole.colors[k + 1]));
-  }
   double best = 0;
-  double best_rms = std::min(MOST_LEFT * whole.rms, whole.rms - LEAST_EXPLAINED * contrast);
+  double best_rms = std::min(MOST_LEFT * whole.rms, whole.rms - LEAST_EXPLAINED * strongestContrast(whole));
   std::vector<double> split = radii;
   split.push_back(0);
   for (std::size_t ring = 0; ring < radii.size(); ++ring)

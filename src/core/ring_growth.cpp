@@ -16,6 +16,10 @@ constexpr double RELATIVE_SUPPORT = 0.6;  // of the best supported boundary
 constexpr double ABOVE_BACKGROUND = 0.2;  // above the median over all radii
 constexpr double MIN_DISTANCE = 1.6;      // between two boundaries [px]: closer ones merge in the gradient
 constexpr int MAX_ROUNDS = 8;
+constexpr std::size_t ENOUGH = 3;  // boundaries to find further ones in the profile along rays
+
+// At edgels, of one growth. Targets of 200 px radius take 70000; in clutter growth goes on to the largest radius.
+constexpr std::size_t MAX_LOOKS = 80000;
 constexpr double MAX_RADIUS = 600;          // [px]
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
@@ -150,6 +154,7 @@ bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
 
 bool growRings(EdgelMap& map, double reach, Rings& rings)
 {
+  const std::size_t looks_before = map.looks();
   std::vector<RadialEdgel> edgels;
   if (!rings.radii.empty())
   {
@@ -163,6 +168,10 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
   bool patient = false;
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
+    if (map.isSpent() || map.looks() - looks_before > 2 * MAX_LOOKS)
+    {
+      return rings.radii.size() >= ENOUGH;
+    }
     const bool rough = rings.radii.size() < 2;
     collectRadialEdgels(map, rings.family, reach, rough ? COARSE_COSINE : FINE_COSINE, edgels);
     const double tolerance = rough ? std::max(.9, .015 * reach) : std::max(.8, .008 * reach);
@@ -196,7 +205,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     const bool grown =
         rings.radii.empty() || next.radii.size() > rings.radii.size() || next.radii.back() > 1.05 * rings.radii.back();
     rings = next;
-    if (!grown && patient)
+    if ((!grown && patient) || (rings.radii.size() >= ENOUGH && map.looks() - looks_before > MAX_LOOKS))
     {
       break;
     }

@@ -1,59 +1,18 @@
 #include "outdoor_omr/targets.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "arc_seeds.h"
 #include "color_key.h"
 #include "edgels.h"
-#include "ring_candidate.h"
 #include "ring_colors.h"
-#include "ring_seeds.h"
+#include "ring_search.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 50;              // that are looked at
-constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
 constexpr double MIN_UNREAD_DIAMETER = 30;  // of a target of three rings with unknown ones [px]
-
-bool contains(const RingCandidate& candidate, const cv::Point2d& point)
-{
-  return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
-}
-
-bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
-{
-  return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
-    return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
-  });
-}
-
-double score(const RingCandidate& candidate)
-{
-  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
-}
-
-/** Of candidates one of which contains the other's centre, the best. */
-std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates)
-{
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const RingCandidate& left, const RingCandidate& right) { return score(left) > score(right); });
-  std::vector<RingCandidate> best;
-  for (RingCandidate& candidate : candidates)
-  {
-    const bool is_double = std::any_of(best.begin(), best.end(), [&](const RingCandidate& other) {
-      return contains(other, candidate.rings.family.center) || contains(candidate, other.rings.family.center);
-    });
-    if (!is_double)
-    {
-      best.push_back(std::move(candidate));
-    }
-  }
-  return best;
-}
 
 /** A target has letters; three narrow rings, which lenses and letters have too, are one only if all can be read. */
 bool isReadable(const Target& target, int ring_count, int min_rings)
@@ -123,41 +82,11 @@ std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, co
     return {};
   }
   EdgelMap map(frame.bgr);
-  std::vector<RingCandidate> candidates;
-  const auto is_taken = [&](const cv::Point2d& point) {
-    return isOnBoard(point, boards) ||
-           std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
-             return candidate.evidence * candidate.visible > UNDISPUTED && contains(candidate, point);
-           });
-  };
-  const auto try_seed = [&](const RingSeed& seed, bool is_boundary) {
-    RingCandidate candidate;
-    if (growCandidate(map, frame.bgr, seed, is_boundary, candidate) && isTarget(candidate, settings.target_min_rings))
-    {
-      candidates.push_back(std::move(candidate));
-    }
-  };
-  for (const RingSeed& seed : findRoundSeeds(regions.regions))
-  {
-    if (!is_taken(seed.family.center) && hasOwnBoundary(map, frame.bgr, seed))
-    {
-      try_seed(seed, true);
-    }
-  }
-  int budget = MAX_PIECES;
-  for (const Region* piece : findPieces(regions.regions))
-  {
-    RingSeed seed;
-    if (!is_taken(piece->center) && --budget >= 0 && findArcSeed(map, *piece, seed) && !is_taken(seed.family.center))
-    {
-      try_seed(seed, false);
-    }
-  }
   std::vector<Target> targets;
-  for (const RingCandidate& candidate : bestOfEachPlace(std::move(candidates)))
+  for (RingCandidate& candidate : findRingCandidates(map, frame.bgr, regions, boards, settings.target_min_rings))
   {
     Target target;
-    if (toTarget(candidate, settings.target_min_rings, target))
+    if (toTarget(std::move(candidate), settings.target_min_rings, target))
     {
       targets.push_back(std::move(target));
     }

@@ -1,0 +1,30 @@
+#ifndef OUTDOOR_OMR_CORE_RING_SEARCH_H
+#define OUTDOOR_OMR_CORE_RING_SEARCH_H
+
+#include <vector>
+
+#include "edgels.h"
+#include "outdoor_omr/checkerboard.h"
+#include "outdoor_omr/region.h"
+#include "ring_candidate.h"
+
+namespace omr
+{
+/** Looks at edgels (EdgelMap::looks()) that a search in an image may take. */
+std::size_t allowedLooks(const cv::Size& image_size);
+
+/**
+ * Grows the regions that may be part of a target, the most promising first, until allowedLooks() are spent: on no
+ * clutter the search takes more.
+ *
+ * @param bgr       H x W, CV_8UC3; the map's image.
+ * @param boards    what lies on them is no target.
+ * @param min_rings of a target.
+ * @return          what isTarget(), the best of each place.
+ */
+std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
+                                              const std::vector<Checkerboard>& boards, int min_rings);
+
+}  // namespace omr
+
+#endif

@@ -1,0 +1,84 @@
+#include "ring_search.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/reference_fill.h"
+#include "outdoor_omr/settings.h"
+#include "render_target.h"
+
+namespace
+{
+omr::RegionMap regionsOf(const cv::Mat& image)
+{
+  const omr::Settings settings;
+  const cv::Mat edges =
+      omr::edgeMask(omr::filterImage(image, settings.filter, settings.filter_size), omr::edgeThreshold(settings));
+  omr::RegionMap regions;
+  regions.size = image.size();
+  for (const auto& sums : omr::sumRegions(image, edges, omr::labelRegions(edges)))
+  {
+    if (static_cast<int>(sums.area) >= settings.region_min_area)
+    {
+      regions.regions.push_back(omr::toRegion(sums));
+    }
+  }
+  return regions;
+}
+
+/** Disks and pairs of circles everywhere: every one is a seed, and has edges around it. */
+cv::Mat clutter(const cv::Size& size)
+{
+  cv::RNG random(3);
+  cv::Mat image(size, CV_8UC3, cv::Scalar::all(128));
+  for (int i = 0; i < size.area() / 250; ++i)
+  {
+    const cv::Point center(random.uniform(0, size.width), random.uniform(0, size.height));
+    const int radius = random.uniform(3, 12);
+    const cv::Scalar color(random.uniform(0, 256), random.uniform(0, 256), random.uniform(0, 256));
+    cv::circle(image, center, radius, color, random.uniform(0, 2) == 0 ? cv::FILLED : 2, cv::LINE_AA);
+  }
+  return image;
+}
+
+/** One seed's growth may begin before the looks are spent. */
+constexpr double ONE_GROWTH = 250000;
+}  // namespace
+
+TEST(RingSearch, clutterTakesNoMoreThanTheAllowedLooks)
+{
+  const cv::Mat image = clutter({1600, 1200});
+  const omr::RegionMap regions = regionsOf(image);
+  omr::EdgelMap map(image);
+  EXPECT_TRUE(omr::findRingCandidates(map, image, regions, {}, 3).empty());
+  EXPECT_GT(map.looks(), .5 * omr::allowedLooks(image.size()));
+  EXPECT_LT(map.looks(), omr::allowedLooks(image.size()) + ONE_GROWTH);
+}
+
+TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)
+{
+  TargetScene scene;
+  const cv::Mat target = renderTarget(scene);
+  cv::Mat image = clutter({1600, 1200});
+  target.copyTo(image(cv::Rect(cv::Point(600, 400), target.size())));
+  omr::EdgelMap map(image);
+  const auto candidates = omr::findRingCandidates(map, image, regionsOf(image), {}, 3);
+  ASSERT_EQ(1U, candidates.size());
+  EXPECT_EQ(5, candidates[0].ring_count);
+  EXPECT_NEAR(0, cv::norm(candidates[0].rings.family.center - projectedCenter(scene) - cv::Point2d(600, 400)), .2);
+}
+
+TEST(RingSearch, anEmptyPictureTakesNoLooks)
+{
+  const cv::Mat image(300, 400, CV_8UC3, cv::Scalar::all(90));
+  omr::EdgelMap map(image);
+  EXPECT_TRUE(omr::findRingCandidates(map, image, regionsOf(image), {}, 3).empty());
+  EXPECT_LT(map.looks(), 10000);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
