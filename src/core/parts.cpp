@@ -99,10 +99,6 @@ PartTarget readTarget(const YamlFile& node)
   {
     colors.fail("'" + target.colors + "': expected neighbouring rings of different colours");
   }
-  if (target.colors.back() == 'W')
-  {
-    colors.fail("'" + target.colors + "': the outer ring is white, as the paper around it");
-  }
   const std::string ring = "the width of a ring in metres, 0.0005 to 0.5";
   target.ring = node.get("ring", ring).number(ring, MIN_RING, MAX_RING);
   target.center = cv::Point3d(readPosition(node.get("xyz", POSITION_IN_METRES)));
