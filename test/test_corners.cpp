@@ -7,6 +7,7 @@
 
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/corners.h"
+#include "outdoor_omr/lattice_growth.h"
 #include "render.h"
 
 using omr::CornerLooker;

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "outdoor_omr/lattice.h"
+#include "outdoor_omr/lattice_evidence.h"
 #include "outdoor_omr/lattice_extent.h"
 #include "outdoor_omr/lattice_gaps.h"
+#include "outdoor_omr/lattice_growth.h"
 #include "outdoor_omr/lattice_model.h"
+#include "outdoor_omr/lattice_prediction.h"
 #include "render.h"
 
 using omr::CornerLook;

@@ -304,6 +304,31 @@ TEST_F(Locate, twoCopiesAreCandidatesOfOneSighting)
   EXPECT_EQ(sightings[0].candidates.size(), 2U);
 }
 
+TEST_F(Locate, asManyCopiesAsThePartHasAreCertain)
+{
+  Part two = plate();
+  two.copies = 2;
+  const cv::Affine3d left = poseAt(-0.5, 0, 2, 20, 0, 0);
+  const cv::Affine3d right = poseAt(0.5, 0, 2.2, 0, 20, 30);
+  PartView view(camera_);
+  view.add(two, left);
+  view.add(two, right);
+  const std::vector<Sighting> sightings = locate(view, {two});
+  ASSERT_EQ(sightings.size(), 2U);
+  for (const Sighting& sighting : sightings)
+  {
+    ASSERT_TRUE(sighting.certain());
+    const PartPose& found = sighting.candidates[0];
+    expectAt(found, "plate", found.pose.camera_part.translation()[0] < 0 ? left : right);
+  }
+
+  // One more than there should be: which of the three is none?
+  view.add(two, poseAt(0, 0.5, 2.5));
+  const std::vector<Sighting> too_many = locate(view, {two});
+  ASSERT_EQ(too_many.size(), 1U);
+  EXPECT_EQ(too_many[0].candidates.size(), 3U);
+}
+
 TEST_F(Locate, copyWithFewerMarkersGivesWay)
 {
   Part part{"plate", {flatBoard(7, 10)}, {LEFT}};

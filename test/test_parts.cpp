@@ -78,6 +78,12 @@ TEST(Parts, poseTakesAQuaternion)
   EXPECT_LT(cv::norm(turned - cv::Vec3d(0, 1, 0)), 1e-4);
 }
 
+TEST(Parts, copies)
+{
+  EXPECT_EQ(parse(partWith("[" + BOARD + "]"))[0].copies, 1);
+  EXPECT_EQ(parse("parts:\n- {name: plate, copies: 3, checkerboards: [" + BOARD + "]}")[0].copies, 3);
+}
+
 TEST(Parts, innerCornersAreOrderedRowByRowAboutTheMiddle)
 {
   const std::vector<cv::Point3d> corners = innerCorners(parse(partWith("[" + BOARD + "]"))[0].checkerboards[0]);
@@ -146,6 +152,8 @@ TEST(Parts, mistakesAreNamed)
        ":3: parts[0]: the key 'name' stands here twice"},
       {"parts:\n- {name: a, checkerboards: [" + BOARD + "]}\n- {name: a, checkerboards: [" + BOARD + "]}",
        ":3: parts[1].name: another part has the name 'a' already"},
+      {"parts:\n- name: plate\n  copies: 0\n  checkerboards: [" + BOARD + "]",
+       ":3: parts[0].copies: expected the number of like parts that may be in view at once, 1 to 100, not '0'"},
       {partWith("[]"), ":3: parts[0].checkerboards: expected a list of one checkerboard or more"},
       {partWith("[" + BOARD + "]", "3"), ":4: parts[0].targets: expected a list of targets"},
       {partWith("[{cols: 10, square: 0.02}]"), ":3: parts[0].checkerboards[0]: the key 'rows' is missing"},

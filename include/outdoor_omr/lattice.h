@@ -86,39 +86,6 @@ class Lattice
   int count_ = 0;
 };
 
-/**
- * Where a node should be, from the corners found around it: weighted least squares in lattice coordinates, affine,
- * bilinear or quadratic as their number and spread allow. No camera model: wide-angle lenses and curved plates are
- * smooth over a few squares as well.
- *
- * @param window corners up to this many rows and columns away count, the node's own does not.
- * @return false if there is none, or the lattice folds over itself there.
- */
-bool predictNode(const Lattice& lattice, int row, int col, int window, LocalFrame& predicted);
-
-/** Finds corners outwards from those found, best supported first, until none is added or there are max_count. */
-void growLattice(Lattice& lattice, CornerLooker& looker, int max_count);
-
-/** Looks once more at every node of the box that was not found, now with all its neighbours. */
-void fillHoles(Lattice& lattice, CornerLooker& looker);
-
-/** How much speaks for a board, and against clutter that happens to alternate. */
-struct Evidence
-{
-  float fill = 0;         ///< found corners per node of the box
-  float correlation = 0;  ///< median of the corners
-  float unevenness = 0;   ///< median third difference of the positions [squares], see latticeEvidence()
-
-  /** Sum of the three shortfalls, each in units of what boards hardly reach; see MAX_DOUBT. */
-  float doubt() const;
-};
-
-/**
- * Third differences vanish on what perspective, lens and curved plate do to neighbouring squares, where second
- * differences do not (a 180 degree fisheye has 0.26 squares); they are scaled to the noise of a second difference.
- */
-Evidence latticeEvidence(const Lattice& lattice);
-
 }  // namespace omr
 
 #endif

@@ -20,6 +20,7 @@ class LatticeModel
   enum Terms
   {
     homography = 0,
+    robust_homography = 1,  ///< the same with outliers re-weighted; not for few corners: it leaves out good ones
     quadratic = 6,
     cubic = 10,
     quartic = 15

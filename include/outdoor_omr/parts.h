@@ -37,6 +37,7 @@ struct Part
   std::string name;
   std::vector<PartCheckerboard> checkerboards;  ///< one at least
   std::vector<PartTarget> targets;
+  int copies = 1;  ///< of it that may be in view at once
 };
 
 /** The inner corners of a board, row by row, in the frame of its part [m]: (rows - 1) * (cols - 1) points. */

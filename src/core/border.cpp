@@ -1,5 +1,6 @@
 #include "outdoor_omr/border.h"
 
+#include "outdoor_omr/lattice_prediction.h"
 #include "outdoor_omr/rim_look.h"
 
 namespace omr

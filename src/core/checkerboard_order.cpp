@@ -1,4 +1,5 @@
 #include "outdoor_omr/checkerboard_order.h"
+#include "outdoor_omr/lattice_prediction.h"
 
 #include <array>
 #include <cmath>

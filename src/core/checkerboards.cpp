@@ -9,10 +9,12 @@
 #include "outdoor_omr/corners.h"
 #include "outdoor_omr/groups.h"
 #include "outdoor_omr/lattice.h"
+#include "outdoor_omr/lattice_evidence.h"
 #include "outdoor_omr/lattice_extent.h"
 #include "outdoor_omr/lattice_gaps.h"
+#include "outdoor_omr/lattice_growth.h"
 #include "outdoor_omr/regularity.h"
-#include "outdoor_omr/saddle_points.h"
+#include "outdoor_omr/saddle_groups.h"
 #include "outdoor_omr/search_map.h"
 
 namespace omr

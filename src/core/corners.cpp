@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "outdoor_omr/lattice_model.h"
+#include "outdoor_omr/lattice_prediction.h"
 
 namespace omr
 {

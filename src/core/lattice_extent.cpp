@@ -7,6 +7,7 @@
 #include "outdoor_omr/border.h"
 #include "outdoor_omr/corner_ring.h"
 #include "outdoor_omr/lattice_model.h"
+#include "outdoor_omr/lattice_prediction.h"
 
 namespace omr
 {

@@ -1,11 +1,14 @@
 #include "outdoor_omr/lattice_gaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "outdoor_omr/border.h"
+#include "outdoor_omr/lattice_growth.h"
 #include "outdoor_omr/lattice_model.h"
+#include "outdoor_omr/lattice_prediction.h"
 #include "outdoor_omr/lattice_side.h"
 
 namespace omr
@@ -75,17 +78,24 @@ bool isWithinReach(const Lattice& lattice, int row, int col)
 
 void jumpGaps(Lattice& lattice, CornerLooker& looker)
 {
-  constexpr int MAX_ROUNDS = 6;
+  constexpr int MAX_ROUNDS = 9;
   constexpr int MIN_CORNERS = 6;
-  constexpr float TOLERANCE = 0.2F;       // squares
-  constexpr float WIDE_TOLERANCE = 0.3F;  // once nothing is found within the other
-  constexpr double MAX_RESIDUAL = 0.06;   // squares, at which one homography still says where the next square is
+  // Where one attempt finds nothing the next is made: corners pulled by what hides their neighbours mislead the plain
+  // fit over three squares, a robust one loses boards of few corners.
+  struct Attempt
+  {
+    LatticeModel::Terms terms;
+    float tolerance;  // squares
+  };
+  constexpr std::array<Attempt, 3> ATTEMPTS = {
+      {{LatticeModel::homography, 0.2F}, {LatticeModel::robust_homography, 0.2F}, {LatticeModel::homography, 0.3F}}};
+  constexpr double MAX_RESIDUAL = 0.06;  // squares, at which one homography still says where the next square is
   struct Find
   {
     int row, col;
     CornerLook corner;
   };
-  bool wide = false;
+  std::size_t attempt = 0;
   for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS; ++round)
   {
     const cv::Rect box = lattice.box;
@@ -101,7 +111,7 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
     }
     LatticeModel model;
     const bool fits =
-        model.fit(lattice, LatticeModel::homography, 0) &&
+        model.fit(lattice, ATTEMPTS[attempt].terms, 0) &&
         model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
     const float contrast = lattice.medianContrast();
     std::vector<Find> finds;
@@ -111,7 +121,7 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
       {
         Find find{i, j, {}};
         if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j) &&
-            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, wide ? WIDE_TOLERANCE : TOLERANCE, i, j,
+            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, ATTEMPTS[attempt].tolerance, i, j,
                           find.corner))
         {
           finds.push_back(find);
@@ -141,11 +151,11 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
     {
       lattice.put(find.row, find.col, find.corner);
     }
-    if (finds.empty() && wide)
+    attempt = finds.empty() ? attempt + 1 : 0;
+    if (attempt == ATTEMPTS.size())
     {
       return;
     }
-    wide = finds.empty();
     growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
   }
 }

@@ -30,10 +30,12 @@ cv::Point2d mapPoint(const cv::Matx33d& homography, const cv::Point2d& point)
  * the denominator of the first solution, which makes its error that of the image. As exact as cv::findHomography()
  * here, at a tenth of its time, of which half of the search was made.
  *
- * @param from of size 1.
+ * @param from    of size 1.
+ * @param weights of the points.
  * @return false if the points span none.
  */
-bool fitHomography(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2f>& to, cv::Matx33d& homography)
+bool fitHomography(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2f>& to,
+                   const std::vector<double>& weights, cv::Matx33d& homography)
 {
   constexpr int ROUNDS = 2;
   constexpr int UNKNOWNS = 8;
@@ -58,7 +60,7 @@ bool fitHomography(const std::vector<cv::Point2d>& from, const std::vector<cv::P
       const double y = from[i].y;
       const cv::Point2d target = (cv::Point2d(to[i]) - center) / size;
       const double denominator = round == 0 ? 1 : fitted(2, 0) * x + fitted(2, 1) * y + 1;
-      const double weight = 1 / (denominator * denominator);
+      const double weight = weights[i] / (denominator * denominator);
       const cv::Vec<double, UNKNOWNS> first(x, y, 1, 0, 0, 0, -target.x * x, -target.x * y);
       const cv::Vec<double, UNKNOWNS> second(0, 0, 0, x, y, 1, -target.y * x, -target.y * y);
       for (int a = 0; a < UNKNOWNS; ++a)
@@ -165,7 +167,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
   {
     return false;
   }
-  terms_ = terms;
+  terms_ = terms == robust_homography ? homography : terms;
   row_ = box.y + (box.height - 1) / 2.;
   col_ = box.x + (box.width - 1) / 2.;
   half_height_ = (box.height - 1) / 2.;
@@ -183,16 +185,18 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
       }
     }
   }
-  if (!fitHomography(places, positions, homography_))
+  const double outlier = terms == quartic ? QUARTIC_OUTLIER : OUTLIER;
+  std::vector<double> weights(places.size(), 1);
+  if (!fitHomography(places, positions, weights, homography_))
   {
     return false;
   }
-  const double outlier = terms == quartic ? QUARTIC_OUTLIER : OUTLIER;
-  std::vector<double> weights(places.size(), 1);
   std::vector<double> residuals(places.size());
-  for (int round = 0; round < (terms_ > 0 ? ROUNDS : 1); ++round)
+  for (int round = 0; round < (terms == homography ? 1 : ROUNDS); ++round)
   {
-    if (terms_ > 0 && !fitPolynomial(places, positions, weights, ridge))
+    const bool fitted = terms_ > 0 ? fitPolynomial(places, positions, weights, ridge)
+                                   : round == 0 || fitHomography(places, positions, weights, homography_);
+    if (!fitted)
     {
       return false;
     }

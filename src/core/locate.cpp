@@ -113,46 +113,62 @@ Sighting sightingOf(const Reading& reading)
   return sighting;
 }
 
-/** Sightings in the making: a part is at one place. */
+/** Sightings in the making: of a part there are no more places than copies. */
 class Sightings
 {
  public:
-  /** Of several sightings certain of one part the one with more markers stays; of equals each is a candidate. */
+  /** To be called with the best supported readings first. */
   void add(const Reading& reading)
   {
     Sighting sighting = sightingOf(reading);
-    if (!sighting.certain())
+    if (sighting.certain())
     {
-      sightings_.push_back(std::move(sighting));
+      places_[reading.matches.front().part].push_back({sighting.candidates.front(), reading.score()});
       return;
     }
-    const PartPose& found = sighting.candidates.front();
-    const auto place = certain_.emplace(found.part, Place{sightings_.size(), reading.score()});
-    const Place& known = place.first->second;
-    if (place.second)
-    {
-      sightings_.push_back(std::move(sighting));
-    }
-    else if (known.score == reading.score())
-    {
-      sightings_[known.index].candidates.push_back(found);
-    }
+    ambiguous_.push_back(std::move(sighting));
   }
 
-  const std::vector<Sighting>& all() const
+  /** Of a part with more places than copies those with more markers stay; equals, of which one at least is none, are
+   * candidates of one sighting. */
+  std::vector<Sighting> all() const
   {
-    return sightings_;
+    std::vector<Sighting> sightings;
+    for (const auto& [part, places] : places_)
+    {
+      const auto copies = static_cast<std::size_t>(part->copies);
+      const bool too_many = places.size() > copies;
+      const int score_left_out = too_many ? places[copies].score : -1;
+      Sighting equals;
+      for (const Place& place : places)
+      {
+        if (!too_many || place.score > score_left_out)
+        {
+          sightings.push_back({{place.found}});
+        }
+        else if (place.score == score_left_out && places[copies - 1].score == score_left_out)
+        {
+          equals.candidates.push_back(place.found);
+        }
+      }
+      if (!equals.candidates.empty())
+      {
+        sightings.push_back(std::move(equals));
+      }
+    }
+    sightings.insert(sightings.end(), ambiguous_.begin(), ambiguous_.end());
+    return sightings;
   }
 
  private:
   struct Place
   {
-    std::size_t index = 0;
+    PartPose found;
     int score = 0;
   };
 
-  std::vector<Sighting> sightings_;
-  std::map<std::string, Place> certain_;
+  std::map<const Part*, std::vector<Place>> places_;
+  std::vector<Sighting> ambiguous_;
 };
 
 /** The best supported of the readings that explain something; the end if none does. */

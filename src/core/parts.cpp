@@ -22,6 +22,7 @@ constexpr double MAX_RADIUS = 100;
 constexpr int MIN_ROWS = 5;  // squares, as the detector's (paper, section 3.4: 5x7 to 21x21)
 constexpr int MIN_COLS = 7;
 constexpr int MAX_SIDE = 21;
+constexpr int MAX_COPIES = 100;
 constexpr std::size_t MIN_RINGS = 2;
 constexpr std::size_t MAX_RINGS = 9;
 constexpr double TOUCH = 1e-6;  // [m]; markers that share an edge do not overlap
@@ -162,9 +163,14 @@ std::string readName(const YamlFile& part)
 
 Part readPart(const YamlFile& node)
 {
-  node.allowOnly({"name", "checkerboards", "targets"}, "a map with 'name', 'checkerboards' and 'targets'");
+  node.allowOnly({"name", "copies", "checkerboards", "targets"}, "a map with 'name', 'checkerboards' and 'targets'");
   Part part;
   part.name = readName(node);
+  if (node.has("copies"))
+  {
+    const std::string expected = "the number of like parts that may be in view at once, 1 to 100";
+    part.copies = node.get("copies", expected).integer(expected, 1, MAX_COPIES);
+  }
   std::vector<Cover> covers;
   const std::string boards = "a list of one checkerboard or more";
   const YamlFile board_list = node.get("checkerboards", boards);

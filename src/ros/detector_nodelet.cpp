@@ -1,15 +1,14 @@
 #include <cv_bridge/cv_bridge.h>
 #include <dynamic_reconfigure/server.h>
 #include <image_transport/image_transport.h>
-#include <nodelet/nodelet.h>
 
 #include <boost/make_shared.hpp>
 #include <memory>
 #include <mutex>
 #include <pluginlib/class_list_macros.hpp>
-#include <stdexcept>
 
 #include "caught.h"
+#include "checked_nodelet.h"
 #include "diagnostics.h"
 #include "image_input.h"
 #include "image_thread.h"
@@ -26,22 +25,12 @@ namespace omr
  * Every callback is short and comes from the one queue of getNodeHandle(); the images are processed in a thread of
  * their own, so that sliders, listeners and diagnostics never wait for one.
  */
-class DetectorNodelet : public nodelet::Nodelet
+class DetectorNodelet : public CheckedNodelet
 {
  private:
   using ReconfigureServer = dynamic_reconfigure::Server<outdoor_omr::OmrConfig>;
 
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The detector cannot start: %s", error.c_str());
-      throw std::runtime_error(error);  // tells the manager, which keeps the text to itself
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
     for (const std::string& complaint : checkParameters(private_nh))

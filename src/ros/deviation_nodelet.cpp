@@ -1,4 +1,3 @@
-#include <nodelet/nodelet.h>
 #include <outdoor_omr/DeviationArray.h>
 #include <outdoor_omr/PartArray.h>
 #include <tf2_ros/transform_listener.h>
@@ -14,6 +13,8 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
+#include "number_parameter.h"
 #include "outdoor_omr/deviation.h"
 #include "pose_messages.h"
 #include "status_report.h"
@@ -73,20 +74,10 @@ std::string reasonWithout(const std::string& part, const outdoor_omr::PartArray&
 }  // namespace
 
 /** Positions of parts in, deviations from their goals out. */
-class DeviationNodelet : public nodelet::Nodelet
+class DeviationNodelet : public CheckedNodelet
 {
  private:
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The deviation of parts cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
@@ -97,12 +88,7 @@ class DeviationNodelet : public nodelet::Nodelet
           "parameter ~goals: expected the path of a goals file; config/goals.yaml is an example");
     }
     goals_ = readGoals(file);
-    const double timeout = private_nh.param("tf_timeout", 0.1);
-    if (!(timeout >= 0 && timeout <= MAX_TIMEOUT))
-    {
-      throw std::invalid_argument("parameter ~tf_timeout: expected 0 to 10 seconds, not " + std::to_string(timeout));
-    }
-    patience_ = ros::Duration(timeout);
+    patience_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
     NODELET_INFO("%zu goals in %s", goals_.size(), file.c_str());
     report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
                                              [this](auto& status) { report(status); });
@@ -141,6 +127,10 @@ class DeviationNodelet : public nodelet::Nodelet
     if (part == parts.parts.end())
     {
       throw std::runtime_error(reasonWithout(goal.part, parts));
+    }
+    if (std::count_if(part, parts.parts.end(), [&](const auto& other) { return other.name == goal.part; }) > 1)
+    {
+      throw std::runtime_error("several copies are in view, and the goal is for one");
     }
     PoseEstimate estimate = fromMessage(part->pose);
     if (goal.frame != parts.header.frame_id)

@@ -1,4 +1,3 @@
-#include <nodelet/nodelet.h>
 #include <outdoor_omr/FusionArray.h>
 #include <outdoor_omr/PartArray.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -13,10 +12,13 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
+#include "number_parameter.h"
 #include "part_fusion.h"
 #include "part_messages.h"
 #include "pose_messages.h"
 #include "status_report.h"
+#include "tracker_parameters.h"
 #include "view_collector.h"
 
 namespace omr
@@ -27,35 +29,13 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double PATIENCE = 5;        // [s] without a camera before a warning
 constexpr double LATE_PERIOD = 0.02;  // [s] at which late cameras are given up
-
-/** A number of a parameter, within bounds. */
-double readNumber(const ros::NodeHandle& nh, const std::string& name, double usual, double max)
-{
-  const double value = nh.param(name, usual);
-  if (!(value >= 0 && value <= max))
-  {
-    throw std::invalid_argument("parameter ~" + name + ": expected 0 to " + std::to_string(max) + ", not " +
-                                std::to_string(value));
-  }
-  return value;
-}
 }  // namespace
 
 /** Positions of parts from several cameras in, one position of each part out. */
-class FusionNodelet : public nodelet::Nodelet
+class FusionNodelet : public CheckedNodelet
 {
  private:
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The fusion of cameras cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
@@ -86,6 +66,7 @@ class FusionNodelet : public nodelet::Nodelet
     }
     const double patience = readNumber(private_nh, "patience", 0.1, 10);
     tf_timeout_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, 10));
+    tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     collector_ =
         std::make_unique<ViewCollector>(topics_.size(), readNumber(private_nh, "time_tolerance", 0.02, 10), patience);
@@ -149,7 +130,8 @@ class FusionNodelet : public nodelet::Nodelet
     {
       throw std::runtime_error(unplaced_);
     }
-    const FusedViews fused = fuseViews(cameras, header, settings_);
+    FusedViews fused = fuseViews(cameras, header, settings_);
+    track(fused.parts, *tracker_);
     parts_.publish(fused.parts);
     fusions_.publish(fused.report);
     if (markers_.getNumSubscribers() > 0)
@@ -160,7 +142,7 @@ class FusionNodelet : public nodelet::Nodelet
     {
       for (const outdoor_omr::Part& part : fused.parts.parts)
       {
-        broadcaster_.sendTransform(toTransform(header, part));
+        broadcaster_.sendTransform(toTransform(header, part, descriptions_));
       }
     }
     last_ = fused;
@@ -231,6 +213,7 @@ class FusionNodelet : public nodelet::Nodelet
   std::string complaint_;  // of the last collection, not repeated
   std::string unplaced_;   // what TF said of cameras in the last collection
   FusedViews last_;
+  std::unique_ptr<PartTracker> tracker_;
 
   ros::Publisher parts_;
   ros::Publisher fusions_;

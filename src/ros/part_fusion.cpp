@@ -24,6 +24,7 @@ SeenPart see(const CameraView& view, const outdoor_omr::Part& part, const Camera
   SeenPart seen{view.parts.header.frame_id, part, {}};
   seen.estimate = inSharedFrame(fromMessage(part.pose), view.frame_camera, sigma);
   seen.part.pose = toMessage(seen.estimate);
+  seen.part.id = 0;  // of the camera's own tracking
   seen.part.checkerboards.clear();
   seen.part.targets.clear();
   return seen;

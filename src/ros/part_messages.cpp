@@ -40,7 +40,7 @@ Marker marker(const outdoor_omr::PartArray& parts, const outdoor_omr::Part& part
 {
   Marker result;
   result.header = parts.header;
-  result.ns = part.name + "/" + what;
+  result.ns = part.name + "_" + std::to_string(part.id) + "/" + what;
   result.type = type;
   result.action = Marker::ADD;
   result.pose = part.pose.pose;
@@ -189,11 +189,34 @@ outdoor_omr::PartArray toMessage(const std_msgs::Header& header, const std::vect
   return message;
 }
 
-geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const outdoor_omr::Part& part)
+void track(outdoor_omr::PartArray& parts, PartTracker& tracker)
+{
+  std::vector<TrackedPart> tracked;
+  for (const outdoor_omr::Part& part : parts.parts)
+  {
+    tracked.push_back({part.name, fromMessage(part.pose), 0});
+  }
+  tracker.track(tracked, parts.header.stamp.toSec());
+  for (std::size_t i = 0; i < tracked.size(); ++i)
+  {
+    parts.parts[i].id = tracked[i].id;
+    parts.parts[i].pose = toMessage(tracked[i].estimate);
+  }
+}
+
+std::string frameOf(const outdoor_omr::Part& part, const std::vector<Part>& descriptions)
+{
+  const auto has_copies = [&](const Part& candidate) { return candidate.name == part.name && candidate.copies > 1; };
+  const bool numbered = std::any_of(descriptions.begin(), descriptions.end(), has_copies);
+  return numbered ? part.name + "_" + std::to_string(part.id) : part.name;
+}
+
+geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const outdoor_omr::Part& part,
+                                            const std::vector<Part>& descriptions)
 {
   geometry_msgs::TransformStamped transform;
   transform.header = header;
-  transform.child_frame_id = part.name;
+  transform.child_frame_id = frameOf(part, descriptions);
   transform.transform.translation.x = part.pose.pose.position.x;
   transform.transform.translation.y = part.pose.pose.position.y;
   transform.transform.translation.z = part.pose.pose.position.z;
@@ -244,7 +267,7 @@ visualization_msgs::MarkerArray toMarkers(const outdoor_omr::PartArray& parts, c
     }
     message.markers.push_back(axes);
     Marker name = marker(parts, part, "name", Marker::TEXT_VIEW_FACING);
-    name.text = part.name;
+    name.text = frameOf(part, descriptions);
     name.scale.z = 0.15 * size;
     message.markers.push_back(name);
     message.markers.push_back(ellipsoidOf(parts, part));

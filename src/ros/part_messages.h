@@ -9,11 +9,13 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <string>
 #include <vector>
 
 #include "outdoor_omr/camera.h"
 #include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/locate.h"
+#include "outdoor_omr/part_tracker.h"
 #include "outdoor_omr/parts.h"
 #include "outdoor_omr/target.h"
 
@@ -28,8 +30,15 @@ std::vector<Target> fromMessage(const outdoor_omr::TargetArray& message);
 /** @param header of the image, copied. */
 outdoor_omr::PartArray toMessage(const std_msgs::Header& header, const std::vector<Sighting>& sightings);
 
-/** The transform from the camera's optical frame to the frame of the part, which bears its name. */
-geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const outdoor_omr::Part& part);
+/** Gives the parts that are certain their numbers, and smoothed poses where the tracker smooths. */
+void track(outdoor_omr::PartArray& parts, PartTracker& tracker);
+
+/** The frame of the part in TF: its name, and of one that may have copies in view NAME_ID. */
+std::string frameOf(const outdoor_omr::Part& part, const std::vector<Part>& descriptions);
+
+/** The transform from the frame of the parts to that of the part. */
+geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const outdoor_omr::Part& part,
+                                            const std::vector<Part>& descriptions);
 
 /**
  * What rviz shows: of each certain part the outlines of its boards, its axes, its name and the ellipsoid that holds its

@@ -1,6 +1,5 @@
 #include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
-#include <nodelet/nodelet.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <memory>
@@ -10,13 +9,15 @@
 #include <vector>
 
 #include "caught.h"
+#include "checked_nodelet.h"
 #include "part_messages.h"
 #include "position_diagnostics.h"
+#include "tracker_parameters.h"
 
 namespace omr
 {
 /** Markers of an image and the camera's calibration in, positions of parts out. */
-class PositionNodelet : public nodelet::Nodelet
+class PositionNodelet : public CheckedNodelet
 {
  private:
   using CheckerboardArray = outdoor_omr::CheckerboardArray;
@@ -25,17 +26,7 @@ class PositionNodelet : public nodelet::Nodelet
   // Images that may be at work between the camera and the detector's answer.
   static constexpr int QUEUE = 30;
 
-  void onInit() override
-  {
-    const std::string error = caught([this] { start(); });
-    if (!error.empty())
-    {
-      NODELET_FATAL("The position of parts cannot start: %s", error.c_str());
-      throw std::runtime_error(error);
-    }
-  }
-
-  void start()
+  void start() override
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
@@ -52,6 +43,7 @@ class PositionNodelet : public nodelet::Nodelet
       throw std::invalid_argument("parameter ~image_kind: expected raw or rectified, not '" + kind + "'");
     }
     kind_ = kind == "raw" ? ImageKind::RAW : ImageKind::RECTIFIED;
+    tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     NODELET_INFO("%zu parts in %s, of %s images", parts_.size(), file.c_str(), kind.c_str());
     diagnostics_ = std::make_unique<PositionDiagnostics>(nh, private_nh, getName());
@@ -96,7 +88,8 @@ class PositionNodelet : public nodelet::Nodelet
     }
     const std::vector<Sighting> sightings =
         locateParts(fromMessage(checkerboards), fromMessage(targets), parts_, camera);
-    const outdoor_omr::PartArray message = toMessage(checkerboards.header, sightings);
+    outdoor_omr::PartArray message = toMessage(checkerboards.header, sightings);
+    track(message, *tracker_);
     publisher_.publish(message);
     if (markers_.getNumSubscribers() > 0)
     {
@@ -106,7 +99,7 @@ class PositionNodelet : public nodelet::Nodelet
     {
       if (publish_tf_)
       {
-        broadcaster_.sendTransform(toTransform(message.header, part));
+        broadcaster_.sendTransform(toTransform(message.header, part, parts_));
       }
     }
     diagnostics_->located(static_cast<int>(message.parts.size()), static_cast<int>(message.ambiguous.size()));
@@ -115,6 +108,7 @@ class PositionNodelet : public nodelet::Nodelet
   std::vector<Part> parts_;
   ImageKind kind_ = ImageKind::RAW;
   bool publish_tf_ = true;
+  std::unique_ptr<PartTracker> tracker_;
   std::string complaint_;  // the last one, which is not repeated
   std::unique_ptr<PositionDiagnostics> diagnostics_;
   ros::Publisher publisher_;

@@ -26,12 +26,12 @@ class NodeletManager
     }
   }
 
-  /** @return whether /detector was loaded. */
-  static bool load()
+  /** @return whether /NAME was loaded. */
+  static bool load(const std::string& name = "detector")
   {
     nodelet::NodeletLoad call;
-    call.request.name = "/detector";
-    call.request.type = "outdoor_omr/detector";
+    call.request.name = "/" + name;
+    call.request.type = "outdoor_omr/" + name;
     return ros::service::call("/manager/load_nodelet", call) && call.response.success;
   }
 

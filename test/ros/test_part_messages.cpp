@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include "part_messages.h"
+#include "pose_messages.h"
+
+using outdoor_omr::PartArray;
+
+namespace
+{
+/** Two copies of a plate. */
+PartArray platesAt(double stamp, double a, double b)
+{
+  PartArray parts;
+  parts.header.stamp = ros::Time(stamp);
+  parts.header.frame_id = "camera";
+  for (const double x : {a, b})
+  {
+    parts.parts.emplace_back();
+    parts.parts.back().name = "plate";
+    parts.parts.back().pose = omr::toMessage(
+        omr::PoseEstimate{cv::Affine3d(cv::Vec3d(0.1, 0.2, 0.3), cv::Vec3d(x, 0, 1)), cv::Matx66d::eye() * 1e-6});
+  }
+  return parts;
+}
+
+TEST(PartMessages, poseComesBackAsItWent)
+{
+  const omr::PoseEstimate estimate{cv::Affine3d(cv::Vec3d(-2, 1, 0.5), cv::Vec3d(1, 2, 3)), cv::Matx66d::eye() * 2};
+  const omr::PoseEstimate back = omr::fromMessage(omr::toMessage(estimate));
+  EXPECT_LT(cv::norm(back.pose.matrix - estimate.pose.matrix), 1e-12);
+  EXPECT_EQ(cv::norm(back.covariance - estimate.covariance), 0);
+}
+
+TEST(PartMessages, copiesAreFollowedAndHaveFramesOfTheirOwn)
+{
+  omr::PartTracker tracker({});
+  PartArray parts = platesAt(10, 0, 0.5);
+  omr::track(parts, tracker);
+  EXPECT_EQ(parts.parts[0].id, 1U);
+  EXPECT_EQ(parts.parts[1].id, 2U);
+  parts = platesAt(10.1, 0.5, 0);
+  omr::track(parts, tracker);
+  EXPECT_EQ(parts.parts[0].id, 2U);
+  EXPECT_NEAR(parts.parts[0].pose.pose.position.x, 0.5, 1e-12);
+
+  omr::Part plate;
+  plate.name = "plate";
+  EXPECT_EQ(omr::frameOf(parts.parts[0], {plate}), "plate");
+  plate.copies = 2;
+  EXPECT_EQ(omr::frameOf(parts.parts[0], {plate}), "plate_2");
+  EXPECT_EQ(omr::toTransform(parts.header, parts.parts[1], {plate}).child_frame_id, "plate_1");
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
