@@ -58,7 +58,7 @@ LogColor logarithm(const cv::Vec3f& grey)
   LogColor color;
   for (int c = 0; c < 3; ++c)
   {
-    color[c] = table[static_cast<std::size_t>(grey[c] * LEVELS_PER_GREY + .5F)];
+    color[c] = table[static_cast<std::size_t>(std::lround(grey[c] * LEVELS_PER_GREY))];
   }
   return color;
 }
