@@ -176,22 +176,6 @@ TEST(Targets, theDisksColourIsThatOfItsSunnySide)
   }
 }
 
-TEST(Targets, whatHidesTheDiskIsNotRead)
-{
-  // Two equal rings are left of four: the others are there, but unknown.
-  TargetScene scene;
-  scene.colors = "PGBW";
-  scene.radii = {25, 50, 75, 100};
-  scene.sheet_half_side = 0;
-  scene.ground = {.05, .05, .05};
-  cv::Mat image = renderTarget(scene);
-  cv::ellipse(image, {236, 186}, {64, 42}, 20, 0, 360, cv::Scalar(90, 140, 190), cv::FILLED, cv::LINE_AA);
-  for (const Target& target : find(image))
-  {
-    EXPECT_EQ('?', target.colors[0]) << target.colors;
-  }
-}
-
 TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)
 {
   TargetScene scene;

@@ -120,7 +120,7 @@ OMR_VECTORIZED void selectStrongest(const std::array<ChannelGradient, CHANNELS>&
       }
       tile.x[i][j] = static_cast<std::int16_t>(x);
       tile.y[i][j] = static_cast<std::int16_t>(y);
-      tile.magnitude[i][j] = std::sqrt(static_cast<float>(strongest)) / KERNEL_SUM;
+      tile.magnitude[i][j] = std::sqrt(static_cast<float>(strongest)) * (1 / KERNEL_SUM);
     }
   }
 }
