@@ -98,6 +98,35 @@ TEST(PoseEstimate, covarianceTurnsWithTheFrame)
   EXPECT_NEAR(omr::positionRadius95(in_base.covariance), std::sqrt(7.815), 1e-6);
 }
 
+TEST(PoseEstimate, relativeToAnotherPartIsHonest)
+{
+  constexpr int RUNS = 2000;
+  constexpr double CHI_SQUARE_95 = 12.592;  // of six coordinates
+  const cv::Affine3d plate(cv::Vec3d(0.3, -0.4, 1.2), cv::Vec3d(-0.5, 0.1, 2));
+  const cv::Affine3d pipe(cv::Vec3d(-1.1, 0.2, 0.3), cv::Vec3d(0.6, -0.2, 2.5));
+  const cv::Affine3d truth = plate.inv() * pipe;
+  cv::RNG random(3);
+  const auto measured = [&](const cv::Affine3d& pose, double position, double rotation) {
+    cv::Vec6d noise;
+    for (int i = 0; i < 6; ++i)
+    {
+      noise[i] = random.gaussian(i < 3 ? position : rotation);
+    }
+    return PoseEstimate{omr::stepped(pose, noise), covarianceOf(position, rotation)};
+  };
+  int inside = 0;
+  for (int run = 0; run < RUNS; ++run)
+  {
+    const PoseEstimate relative = omr::relativeTo(measured(plate, 0.001, 0.002), measured(pipe, 0.0005, 0.003));
+    const cv::Vec6d error = omr::stepBetween(relative.pose, truth);
+    inside += error.dot(relative.covariance.inv() * error) < CHI_SQUARE_95 ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / RUNS, 0.95, 0.02);  // 4 sigma
+  // A metre away the plate's turn counts for more than its position.
+  const PoseEstimate relative = omr::relativeTo({plate, covarianceOf(0.001, 0.002)}, {pipe, covarianceOf(0, 0)});
+  EXPECT_GT(omr::positionRadius95(relative.covariance), 2 * omr::positionRadius95(covarianceOf(0.001, 0)));
+}
+
 TEST(Goals, workedExample)
 {
   const std::vector<Goal> goals = readGoals(OUTDOOR_OMR_CONFIG "/goals.yaml");

@@ -19,6 +19,9 @@ struct PoseEstimate
 /** The same estimate in another frame. @param other_frame X_other = other_frame * X_frame. */
 PoseEstimate transformed(const PoseEstimate& estimate, const cv::Affine3d& other_frame);
 
+/** Where a part is in the frame of another, both measured in one frame, independently of each other. */
+PoseEstimate relativeTo(const PoseEstimate& other, const PoseEstimate& part);
+
 /**
  * The step from one pose to another: x, y, z [m] and the rotation vector [rad] of the turn about the fixed axes that
  * takes the rotation of `from` to that of `to`; the order and the axes of the covariance.

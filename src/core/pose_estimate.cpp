@@ -30,6 +30,23 @@ PoseEstimate transformed(const PoseEstimate& estimate, const cv::Affine3d& other
   return {other_frame * estimate.pose, turn * estimate.covariance * turn.t()};
 }
 
+PoseEstimate relativeTo(const PoseEstimate& other, const PoseEstimate& part)
+{
+  // A turn w of the other part moves this one, seen from it, by -w x (part - other) = [part - other]x w.
+  const cv::Vec3d arm = part.pose.translation() - other.pose.translation();
+  const cv::Matx33d swing(0, -arm[2], arm[1], arm[2], 0, -arm[0], -arm[1], arm[0], 0);
+  cv::Matx66d by_other = cv::Matx66d::eye() * -1;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      by_other(i, 3 + j) = swing(i, j);
+    }
+  }
+  const PoseEstimate apart{part.pose, part.covariance + by_other * other.covariance * by_other.t()};
+  return transformed(apart, other.pose.inv());
+}
+
 cv::Vec6d stepBetween(const cv::Affine3d& from, const cv::Affine3d& to)
 {
   const cv::Vec3d shift = to.translation() - from.translation();

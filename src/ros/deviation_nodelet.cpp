@@ -60,16 +60,37 @@ std::uint8_t toMessage(Verdict verdict)
   return outdoor_omr::Deviation::UNDECIDED;
 }
 
-/** Why a part is not among the certain ones. */
-std::string reasonWithout(const std::string& part, const outdoor_omr::PartArray& parts)
+bool isAmbiguous(const std::string& name, const outdoor_omr::PartArray& parts)
 {
-  const auto is_candidate = [&](const outdoor_omr::Sighting& sighting) {
-    return std::any_of(sighting.candidates.begin(), sighting.candidates.end(),
-                       [&](const outdoor_omr::Part& candidate) { return candidate.name == part; });
-  };
-  return std::any_of(parts.ambiguous.begin(), parts.ambiguous.end(), is_candidate)
-             ? "ambiguous: several parts or poses fit what is seen"
-             : "not in view";
+  const auto is_it = [&](const outdoor_omr::Part& part) { return part.name == name; };
+  return std::any_of(parts.ambiguous.begin(), parts.ambiguous.end(), [&](const outdoor_omr::Sighting& sighting) {
+    return std::any_of(sighting.candidates.begin(), sighting.candidates.end(), is_it);
+  });
+}
+
+/** Whether the image shows the part, certain or not. */
+bool isSeen(const std::string& name, const outdoor_omr::PartArray& parts)
+{
+  return isAmbiguous(name, parts) || std::any_of(parts.parts.begin(), parts.parts.end(),
+                                                 [&](const outdoor_omr::Part& part) { return part.name == name; });
+}
+
+/** The part of that name. @throws std::runtime_error saying why there is none, or not one only. */
+const outdoor_omr::Part& onlyOne(const std::string& name, const outdoor_omr::PartArray& parts)
+{
+  const auto is_it = [&](const outdoor_omr::Part& part) { return part.name == name; };
+  const auto count = std::count_if(parts.parts.begin(), parts.parts.end(), is_it);
+  if (count > 1)
+  {
+    throw std::runtime_error("several copies of '" + name + "' are in view, and the goal is for one");
+  }
+  if (count == 1)
+  {
+    return *std::find_if(parts.parts.begin(), parts.parts.end(), is_it);
+  }
+  throw std::runtime_error(
+      "'" + name + "' is " +
+      (isAmbiguous(name, parts) ? "ambiguous: several parts or poses fit what is seen" : "not in view"));
 }
 }  // namespace
 
@@ -122,25 +143,8 @@ class DeviationNodelet : public CheckedNodelet
 
   void measure(const Goal& goal, const outdoor_omr::PartArray& parts, outdoor_omr::Deviation& message) const
   {
-    const auto part = std::find_if(parts.parts.begin(), parts.parts.end(),
-                                   [&](const outdoor_omr::Part& candidate) { return candidate.name == goal.part; });
-    if (part == parts.parts.end())
-    {
-      throw std::runtime_error(reasonWithout(goal.part, parts));
-    }
-    if (std::count_if(part, parts.parts.end(), [&](const auto& other) { return other.name == goal.part; }) > 1)
-    {
-      throw std::runtime_error("several copies are in view, and the goal is for one");
-    }
-    PoseEstimate estimate = fromMessage(part->pose);
-    if (goal.frame != parts.header.frame_id)
-    {
-      estimate = transformed(
-          estimate,
-          fromMessage(
-              buffer_.lookupTransform(goal.frame, parts.header.frame_id, parts.header.stamp, patience_).transform));
-    }
-    const Deviation deviation = deviationFrom(goal, estimate);
+    const outdoor_omr::Part& part = onlyOne(goal.part, parts);
+    const Deviation deviation = deviationFrom(goal, inFrameOf(goal, fromMessage(part.pose), parts));
     message.translation_mm = toVector(deviation.translation * MILLIMETRES);
     message.distance_mm = cv::norm(deviation.translation) * MILLIMETRES;
     message.rotation_deg = toVector(deviation.rotation * DEGREES);
@@ -148,6 +152,23 @@ class DeviationNodelet : public CheckedNodelet
     message.distance_uncertainty_mm = deviation.position_uncertainty * MILLIMETRES;
     message.angle_uncertainty_deg = deviation.rotation_uncertainty * DEGREES;
     message.verdict = toMessage(deviation.verdict);
+  }
+
+  /** The estimate in the frame of the goal. */
+  PoseEstimate inFrameOf(const Goal& goal, const PoseEstimate& estimate, const outdoor_omr::PartArray& parts) const
+  {
+    if (goal.frame == parts.header.frame_id)
+    {
+      return estimate;
+    }
+    if (isSeen(goal.frame, parts))
+    {
+      // In the same image: TF would lose how uncertain that part is.
+      return relativeTo(fromMessage(onlyOne(goal.frame, parts).pose), estimate);
+    }
+    const geometry_msgs::TransformStamped transform =
+        buffer_.lookupTransform(goal.frame, parts.header.frame_id, parts.header.stamp, patience_);
+    return transformed(estimate, fromMessage(transform.transform));
   }
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status)

@@ -129,7 +129,7 @@ TEST(Cell, fromABagOfTwoCamerasToTheDeviationOfAPlate)
   EXPECT_EQ(deviation->deviations[0].verdict, Deviation::WITHIN) << deviation->deviations[0];
   EXPECT_NEAR(deviation->deviations[0].translation_mm.x, -1, 0.5);
   EXPECT_EQ(deviation->deviations[1].verdict, Deviation::UNKNOWN);
-  EXPECT_EQ(deviation->deviations[1].reason, "not in view");
+  EXPECT_EQ(deviation->deviations[1].reason, "'sign' is not in view");
   EXPECT_TRUE(std::isnan(deviation->deviations[1].distance_mm));
 
   // A camera that says otherwise by 40 mm: no average, both poses, no deviation.
@@ -144,7 +144,7 @@ TEST(Cell, fromABagOfTwoCamerasToTheDeviationOfAPlate)
   EXPECT_EQ(contradicted->ambiguous[0].candidates.size(), 2U);
   const Deviation unknown = ofPhase(deviations, CONTRADICTING, at_refusal).front()->deviations[0];
   EXPECT_EQ(unknown.verdict, Deviation::UNKNOWN);
-  EXPECT_EQ(unknown.reason, "ambiguous: several parts or poses fit what is seen");
+  EXPECT_EQ(unknown.reason, "'plate' is ambiguous: several parts or poses fit what is seen");
 }
 }  // namespace
 
