@@ -43,8 +43,8 @@ struct Sighting
  * reported: it is a foreign thing with a like board.
  *
  * A board whose size is not certain carries a part only together with another marker of it, and as any section of the
- * part's board. A part is at as many places as it has copies: where more groups of markers carry it, those with the most
- * have it, and equals are the candidates of one sighting.
+ * part's board. A part is at as many places as it has copies: where more groups of markers carry it, those with the
+ * most have it, and equals are the candidates of one sighting.
  *
  * @param camera must be that of the image in which the markers were found.
  * @return one for each group of markers that fits a part; a marker belongs to one sighting.
