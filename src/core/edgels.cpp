@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
+#include <opencv2/core/hal/intrin.hpp>
 
-// The loops over a tile's rows take the widest vectors that the processor has.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define OMR_VECTORIZED __attribute__((target_clones("avx2", "default"), optimize("O3")))
-#else
-#define OMR_VECTORIZED
-#endif
+#include "gradient_tile.h"
+#include "vectorized.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int TILE = 30;                 // [px]; a small target touches few tiles, a tile's border costs 44 %
-constexpr int HALO = 3;                  // two pixels for the 5x5 kernels, one for the comparison with neighbours
-constexpr int GRADIENTS = TILE + 2;      // side of the gradient tile [px]: a multiple of the vectors' length
-constexpr int PIXELS = TILE + 2 * HALO;  // side of the pixel tile [px]
-constexpr int CHANNELS = 3;
-constexpr float KERNEL_SUM = 16;  // of the 3x3 Gaussian, which the 5x5 kernels contain undivided
+constexpr int TILE = GradientTile::PIXELS;
+constexpr int SIDE = GradientTile::SIDE;
 
 // The threshold is this multiple of the median gradient of the picture, which is its noise, within these bounds: below
 // 12 the compression of clean pictures gives edgels, above 28 dark rings in the shade have none.
@@ -31,147 +22,111 @@ constexpr float LOWEST_THRESHOLD = 12;
 constexpr float HIGHEST_THRESHOLD = 28;
 constexpr std::size_t TILE_LOOKS = 100;  // that computing a tile takes the time of
 constexpr int NOISE_SAMPLES = 6;         // tiles along each side of the picture
+constexpr int LANES = 8;
 
-struct GradientTile
+/** Edgels of pixels side by side; one that is no edgel has garbage. */
+struct Maxima
 {
-  std::array<std::array<std::int16_t, GRADIENTS>, GRADIENTS> x, y;
-  std::array<std::array<float, GRADIENTS>, GRADIENTS> magnitude;
+  std::array<float, LANES> x, y;  // from the pixel of the first one [px]
+  std::array<float, LANES> nx, ny;
+  std::array<int, LANES> is_edgel;
 };
 
-/** One channel of the tile's pixels, replicated beyond the borders. */
-using Plane = std::array<std::array<std::int16_t, PIXELS>, PIXELS>;
-
-OMR_VECTORIZED void splitRow(const uchar* row, std::int16_t* blue, std::int16_t* green, std::int16_t* red)
+/** Whether one of the magnitudes reaches the threshold. */
+bool anyReaches(const float* magnitudes, float threshold)
 {
-  for (int j = 0; j < PIXELS; ++j)
+  const cv::v_float32x4 least = cv::v_setall_f32(threshold);
+  return cv::v_check_any((cv::v_load(magnitudes) >= least) | (cv::v_load(magnitudes + LANES / 2) >= least));
+}
+
+/**
+ * Places the edgels of the gradient pixels (j, i) to (j + LANES - 1, i): pixels whose magnitude reaches the threshold
+ * and is the largest along the gradient. Without branches, all lanes at once.
+ */
+inline void findMaxima(const GradientTile& tile, int i, int j, float threshold, Maxima& maxima)
+{
+  const float* above = &tile.magnitude[i - 1][j];
+  const float* row = &tile.magnitude[i][j];
+  const float* below = &tile.magnitude[i + 1][j];
+  const float* x = &tile.x[i][j];
+  const float* y = &tile.y[i][j];
+  for (int lane = 0; lane < LANES; ++lane)
   {
-    blue[j] = row[CHANNELS * j];
-    green[j] = row[CHANNELS * j + 1];
-    red[j] = row[CHANNELS * j + 2];
+    const float here = row[lane];
+    const float length = here * GradientTile::KERNEL_SUM;
+    const float nx = x[lane] / length;
+    const float ny = y[lane] / length;
+    const float ax = std::abs(nx);
+    const float ay = std::abs(ny);
+    // The two neighbours along the gradient, interpolated on the ring of eight pixels.
+    const bool to_right = nx >= 0;
+    const bool to_below = ny >= 0;
+    const bool along_row = ax >= ay;
+    const float t = (along_row ? ay : ax) / (along_row ? ax : ay);
+    const float left = row[lane - 1];
+    const float right = row[lane + 1];
+    const float up = above[lane];
+    const float down = below[lane];
+    const float up_left = above[lane - 1];
+    const float up_right = above[lane + 1];
+    const float down_left = below[lane - 1];
+    const float down_right = below[lane + 1];
+    const float beside_ahead = along_row ? (to_right ? right : left) : (to_below ? down : up);
+    const float beside_behind = along_row ? (to_right ? left : right) : (to_below ? up : down);
+    const float across_ahead = to_below ? (to_right ? down_right : down_left) : (to_right ? up_right : up_left);
+    const float across_behind = to_below ? (to_right ? up_left : up_right) : (to_right ? down_left : down_right);
+    const float ahead = (1 - t) * beside_ahead + t * across_ahead;
+    const float behind = (1 - t) * beside_behind + t * across_behind;
+    const float curvature = ahead + behind - 2 * here;
+    const float vertex = (behind - ahead) / (2 * curvature);
+    const float bounded = vertex < -.7F ? -.7F : (vertex > .7F ? .7F : vertex);
+    const float offset = curvature < -1e-3F ? bounded : 0.F;
+    const float step = offset / (along_row ? ax : ay);
+    maxima.x[lane] = step * nx;
+    maxima.y[lane] = step * ny;
+    maxima.nx[lane] = nx;
+    maxima.ny[lane] = ny;
+    maxima.is_edgel[lane] = static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) &
+                            static_cast<int>(here > behind);
   }
 }
 
-void readPixels(const cv::Mat& bgr, int tile_x, int tile_y, std::array<Plane, CHANNELS>& planes)
+/** Edgels of a tile while they are found. */
+struct EdgelBuffer
 {
-  const int x0 = tile_x - HALO;
-  const bool is_inside = x0 >= 0 && x0 + PIXELS <= bgr.cols;
-  std::array<uchar, CHANNELS * PIXELS> replicated;
-  for (int i = 0; i < PIXELS; ++i)
-  {
-    const auto* row = bgr.ptr<uchar>(std::clamp(tile_y - HALO + i, 0, bgr.rows - 1));
-    for (int j = 0; j < PIXELS && !is_inside; ++j)
-    {
-      std::copy_n(row + CHANNELS * std::clamp(x0 + j, 0, bgr.cols - 1), CHANNELS, replicated.data() + CHANNELS * j);
-    }
-    splitRow(is_inside ? row + CHANNELS * x0 : replicated.data(), planes[0][i].data(), planes[1][i].data(),
-             planes[2][i].data());
-  }
-}
-
-/** Gradient of one channel: Sobel and Gaussian in one, separable 5x5 kernels. */
-struct ChannelGradient
-{
-  std::array<std::array<std::int16_t, GRADIENTS>, GRADIENTS> x, y;
+  static constexpr std::size_t SIZE = TILE * TILE + 1;  // the last one is written without being counted
+  std::array<float, SIZE> x, y, nx, ny;
+  std::size_t count = 0;
 };
 
-OMR_VECTORIZED void differentiate(const Plane& plane, ChannelGradient& gradient)
+/** The edgels of the gradient pixels in an area. */
+OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, const cv::Point& origin, float threshold,
+                               EdgelBuffer& buffer)
 {
-  std::array<std::array<std::int16_t, GRADIENTS>, PIXELS> smooth;
-  std::array<std::array<std::int16_t, GRADIENTS>, PIXELS> slope;
-  for (int i = 0; i < PIXELS; ++i)
+  constexpr std::array<int, 4> BLOCKS = {1, 1 + LANES, 1 + 2 * LANES, SIDE - 1 - LANES};  // the last two overlap
+  for (int i = area.y; i < area.y + area.height; ++i)
   {
-    const std::int16_t* p = plane[i].data();
-    for (int j = 0; j < GRADIENTS; ++j)
+    int next = area.x;
+    for (const int block : BLOCKS)
     {
-      smooth[i][j] = static_cast<std::int16_t>(p[j] + 4 * p[j + 1] + 6 * p[j + 2] + 4 * p[j + 3] + p[j + 4]);
-      slope[i][j] = static_cast<std::int16_t>(p[j + 4] - p[j] + 2 * (p[j + 3] - p[j + 1]));
-    }
-  }
-  for (int i = 0; i < GRADIENTS; ++i)
-  {
-    for (int j = 0; j < GRADIENTS; ++j)
-    {
-      gradient.x[i][j] = static_cast<std::int16_t>(slope[i][j] + 4 * slope[i + 1][j] + 6 * slope[i + 2][j] +
-                                                   4 * slope[i + 3][j] + slope[i + 4][j]);
-      gradient.y[i][j] =
-          static_cast<std::int16_t>(smooth[i + 4][j] - smooth[i][j] + 2 * (smooth[i + 3][j] - smooth[i + 1][j]));
-    }
-  }
-}
-
-/** The strongest of the three channels' gradients at each pixel. */
-OMR_VECTORIZED void selectStrongest(const std::array<ChannelGradient, CHANNELS>& channels, GradientTile& tile)
-{
-  for (int i = 0; i < GRADIENTS; ++i)
-  {
-    for (int j = 0; j < GRADIENTS; ++j)
-    {
-      int x = channels[0].x[i][j];
-      int y = channels[0].y[i][j];
-      int strongest = x * x + y * y;
-      for (int c = 1; c < CHANNELS; ++c)
+      const int end = std::min(block + LANES, area.x + area.width);
+      if (anyReaches(&tile.magnitude[i][block], threshold))
       {
-        const int other_x = channels[c].x[i][j];
-        const int other_y = channels[c].y[i][j];
-        const int squared = other_x * other_x + other_y * other_y;
-        x = squared > strongest ? other_x : x;
-        y = squared > strongest ? other_y : y;
-        strongest = squared > strongest ? squared : strongest;
+        Maxima maxima;
+        findMaxima(tile, i, block, threshold, maxima);
+        for (int j = std::max(next, block); j < end; ++j)
+        {
+          const int lane = j - block;
+          buffer.x[buffer.count] = static_cast<float>(origin.x + j - 1) + maxima.x[lane];
+          buffer.y[buffer.count] = static_cast<float>(origin.y + i - 1) + maxima.y[lane];
+          buffer.nx[buffer.count] = maxima.nx[lane];
+          buffer.ny[buffer.count] = maxima.ny[lane];
+          buffer.count += static_cast<std::size_t>(maxima.is_edgel[lane]);
+        }
       }
-      tile.x[i][j] = static_cast<std::int16_t>(x);
-      tile.y[i][j] = static_cast<std::int16_t>(y);
-      tile.magnitude[i][j] = std::sqrt(static_cast<float>(strongest)) * (1 / KERNEL_SUM);
+      next = std::max(next, end);
     }
   }
-}
-
-/** Gradients of the tile's pixels and of one more around. */
-void computeGradients(const cv::Mat& bgr, int tile_x, int tile_y, GradientTile& tile)
-{
-  std::array<Plane, CHANNELS> planes;
-  readPixels(bgr, tile_x, tile_y, planes);
-  std::array<ChannelGradient, CHANNELS> channels;
-  for (int c = 0; c < CHANNELS; ++c)
-  {
-    differentiate(planes[c], channels[c]);
-  }
-  selectStrongest(channels, tile);
-}
-
-/** Appends the edgel of gradient pixel (j, i) if its magnitude is the largest along the gradient. */
-void addEdgel(const GradientTile& tile, int i, int j, int tile_x, int tile_y, std::vector<Edgel>& edgels)
-{
-  const float here = tile.magnitude[i][j];
-  const float length = here * KERNEL_SUM;
-  const float nx = tile.x[i][j] / length;
-  const float ny = tile.y[i][j] / length;
-  const float ax = std::abs(nx);
-  const float ay = std::abs(ny);
-  // The two neighbours along the gradient, interpolated on the ring of eight pixels.
-  const int sx = nx >= 0 ? 1 : -1;
-  const int sy = ny >= 0 ? 1 : -1;
-  float ahead;
-  float behind;
-  if (ax >= ay)
-  {
-    const float t = ay / ax;
-    ahead = (1 - t) * tile.magnitude[i][j + sx] + t * tile.magnitude[i + sy][j + sx];
-    behind = (1 - t) * tile.magnitude[i][j - sx] + t * tile.magnitude[i - sy][j - sx];
-  }
-  else
-  {
-    const float t = ax / ay;
-    ahead = (1 - t) * tile.magnitude[i + sy][j] + t * tile.magnitude[i + sy][j + sx];
-    behind = (1 - t) * tile.magnitude[i - sy][j] + t * tile.magnitude[i - sy][j - sx];
-  }
-  if (here < ahead || here <= behind)
-  {
-    return;
-  }
-  const float curvature = ahead + behind - 2 * here;
-  const float offset = curvature < -1e-3F ? std::clamp((behind - ahead) / (2 * curvature), -.7F, .7F) : 0.F;
-  const float step = offset / std::max(ax, ay);
-  edgels.push_back({tile_x + j - 1 + step * nx, tile_y + i - 1 + step * ny, nx, ny, here});
 }
 
 /** Median magnitude of a few tiles spread over the picture. */
@@ -187,9 +142,9 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
     {
       computeGradients(bgr, (2 * col + 1) * grid.width / (2 * cols) * TILE,
                        (2 * row + 1) * grid.height / (2 * rows) * TILE, tile);
-      for (int i = 1; i < GRADIENTS; i += 3)
+      for (int i = 1; i < SIDE; i += 3)
       {
-        for (int j = 1; j < GRADIENTS; j += 3)
+        for (int j = 1; j < SIDE; j += 3)
         {
           sample.push_back(tile.magnitude[i][j]);
         }
@@ -222,7 +177,7 @@ cv::Rect EdgelMap::tilesOf(double left, double top, double right, double bottom)
   return {x0, y0, index(right + 1, grid_.width) - x0 + 1, index(bottom + 1, grid_.height) - y0 + 1};
 }
 
-const std::vector<Edgel>& EdgelMap::tile(int col, int row)
+const EdgelTile& EdgelMap::tile(int col, int row)
 {
   Tile& tile = tiles_[static_cast<std::size_t>(row) * grid_.width + col];
   if (!tile.computed)
@@ -230,20 +185,14 @@ const std::vector<Edgel>& EdgelMap::tile(int col, int row)
     tile.computed = true;
     looks_ += TILE_LOOKS;
     GradientTile gradients;
-    computeGradients(bgr_, col * TILE, row * TILE, gradients);
+    const cv::Point origin(col * TILE, row * TILE);
+    computeGradients(bgr_, origin.x, origin.y, gradients);
     // The picture's outermost pixels have no neighbours to compare with.
-    const int last_row = std::min(TILE, bgr_.rows - 1 - row * TILE);
-    const int last_col = std::min(TILE, bgr_.cols - 1 - col * TILE);
-    for (int i = row == 0 ? 2 : 1; i <= last_row; ++i)
-    {
-      for (int j = col == 0 ? 2 : 1; j <= last_col; ++j)
-      {
-        if (gradients.magnitude[i][j] >= threshold_)
-        {
-          addEdgel(gradients, i, j, col * TILE, row * TILE, tile.edgels);
-        }
-      }
-    }
+    const cv::Point first(col == 0 ? 2 : 1, row == 0 ? 2 : 1);
+    const cv::Point end(std::min(TILE, bgr_.cols - 1 - origin.x) + 1, std::min(TILE, bgr_.rows - 1 - origin.y) + 1);
+    EdgelBuffer buffer;
+    findEdgels(gradients, cv::Rect(first, cv::Size(end - first)), origin, threshold_, buffer);
+    tile.edgels.assign(buffer.count, buffer.x.data(), buffer.y.data(), buffer.nx.data(), buffer.ny.data());
   }
   return tile.edgels;
 }

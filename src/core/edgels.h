@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_EDGELS_H
 #define OUTDOOR_OMR_CORE_EDGELS_H
 
+#include <algorithm>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -12,7 +13,49 @@ struct Edgel
 {
   float x, y;       ///< [px], pixel (0, 0) has its centre at (0, 0)
   float nx, ny;     ///< unit gradient of the strongest colour channel, towards the brighter side
-  float magnitude;  ///< length of that gradient: the 3x3 Sobel response on the 3x3 Gaussian [grey levels]
+};
+
+/** Edgels of a tile, each of their values side by side: loops over them take several at once. */
+class EdgelTile
+{
+ public:
+  std::size_t size() const
+  {
+    return values_.size() / 4;
+  }
+  const float* x() const
+  {
+    return values_.data();
+  }
+  const float* y() const
+  {
+    return values_.data() + size();
+  }
+  const float* nx() const
+  {
+    return values_.data() + 2 * size();
+  }
+  const float* ny() const
+  {
+    return values_.data() + 3 * size();
+  }
+  Edgel operator[](std::size_t i) const
+  {
+    return {x()[i], y()[i], nx()[i], ny()[i]};
+  }
+
+  void assign(std::size_t count, const float* x, const float* y, const float* nx, const float* ny)
+  {
+    values_.resize(4 * count);
+    auto end = values_.begin();
+    for (const float* values : {x, y, nx, ny})
+    {
+      end = std::copy_n(values, count, end);
+    }
+  }
+
+ private:
+  std::vector<float> values_;
 };
 
 /**
@@ -61,6 +104,24 @@ class EdgelMap
   void visit(double left, double top, double right, double bottom, Visitor&& visitor,
              int max_tiles = std::numeric_limits<int>::max())
   {
+    const auto visit_tile = [&](const EdgelTile& tile) {
+      for (std::size_t i = 0; i < tile.size(); ++i)
+      {
+        const Edgel edgel = tile[i];
+        if (edgel.x >= left && edgel.x <= right && edgel.y >= top && edgel.y <= bottom)
+        {
+          visitor(edgel);
+        }
+      }
+    };
+    visitTiles(left, top, right, bottom, visit_tile, max_tiles);
+  }
+
+  /** Calls visitor(const EdgelTile&) for the tiles that hold all edgels of an area, and others beside it. */
+  template <typename Visitor>
+  void visitTiles(double left, double top, double right, double bottom, Visitor&& visitor,
+                  int max_tiles = std::numeric_limits<int>::max())
+  {
     const cv::Rect tiles = tilesOf(left, top, right, bottom);
     const int row_step = (tiles.height - 1) / max_tiles + 1;
     const int col_step = (tiles.width - 1) / max_tiles + 1;
@@ -69,15 +130,9 @@ class EdgelMap
       // Shifted from row to row, so that upright edges are met as well.
       for (int col = tiles.x + (row / row_step) % col_step; col < tiles.x + tiles.width; col += col_step)
       {
-        const std::vector<Edgel>& edgels = tile(col, row);
+        const EdgelTile& edgels = tile(col, row);
         looks_ += edgels.size();
-        for (const Edgel& edgel : edgels)
-        {
-          if (edgel.x >= left && edgel.x <= right && edgel.y >= top && edgel.y <= bottom)
-          {
-            visitor(edgel);
-          }
-        }
+        visitor(edgels);
       }
     }
   }
@@ -86,11 +141,11 @@ class EdgelMap
   struct Tile
   {
     bool computed = false;
-    std::vector<Edgel> edgels;
+    EdgelTile edgels;
   };
 
   cv::Rect tilesOf(double left, double top, double right, double bottom) const;
-  const std::vector<Edgel>& tile(int col, int row);
+  const EdgelTile& tile(int col, int row);
 
   cv::Mat bgr_;
   float threshold_ = 0;

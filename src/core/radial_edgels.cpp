@@ -1,7 +1,11 @@
 #include "radial_edgels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "fast_angle.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -9,9 +13,68 @@ namespace
 {
 constexpr double MIN_RADIUS = .8;  // of an edgel [px]
 
-AngleBins binsAt(const cv::Point2d& q, double radius)
+/** Which edgels are radial: RingFamily::toPlane() and the gradient of the radius, without divisions. */
+struct RadialTest
 {
-  const double angle = cv::fastAtan2(static_cast<float>(q.y), static_cast<float>(q.x)) * (ANGLE_BINS / 360.);
+  RingFamily family;
+  cv::Point2d top_left, bottom_right;  // of the edgels [px]
+  double min_squared, max_squared;     // radius [px^2]
+  double squared_cosine;
+};
+
+constexpr std::size_t CHUNK = 64;
+
+/** Of edgels side by side; garbage where is_radial is 0. */
+struct RadialChunk
+{
+  std::array<float, CHUNK> radius;
+  std::array<float, CHUNK> angle;  // on the plane [degrees]
+  std::array<int, CHUNK> brighter_outside;
+  std::array<int, CHUNK> is_radial;
+};
+
+OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const float* y, const float* nx, const float* ny,
+                               std::size_t size, RadialChunk& chunk)
+{
+  const RingFamily family = test.family;
+  const double left = test.top_left.x;
+  const double top = test.top_left.y;
+  const double right = test.bottom_right.x;
+  const double bottom = test.bottom_right.y;
+  const double min_squared = test.min_squared;
+  const double max_squared = test.max_squared;
+  const double squared_cosine = test.squared_cosine;
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const double dx = x[i] - family.center.x;
+    const double dy = y[i] - family.center.y;
+    const double m00 = family.a - dx * family.hx;
+    const double m01 = family.b - dx * family.hy;
+    const double m10 = family.b - dy * family.hx;
+    const double m11 = family.d - dy * family.hy;
+    const double det = m00 * m11 - m01 * m10;
+    const double qx = m11 * dx - m01 * dy;
+    const double qy = m00 * dy - m10 * dx;
+    const double squared = qx * qx + qy * qy;
+    const double det_squared = det * det;
+    // The gradient of the radius, up to a positive factor.
+    const double gx = m11 * qx - m10 * qy;
+    const double gy = m00 * qy - m01 * qx;
+    const double projection = gx * nx[i] + gy * ny[i];
+    const bool in_box = (x[i] >= left) & (x[i] <= right) & (y[i] >= top) & (y[i] <= bottom);
+    const bool in_reach = (squared <= max_squared * det_squared) & (squared >= min_squared * det_squared);
+    const bool is_radial = projection * projection >= squared_cosine * (gx * gx + gy * gy);
+    chunk.radius[i] = static_cast<float>(std::sqrt(squared) / det);
+    chunk.angle[i] = fastAngle(static_cast<float>(qx), static_cast<float>(qy));
+    chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
+    chunk.is_radial[i] = in_box & in_reach & is_radial ? 1 : 0;
+  }
+}
+
+/** @param degrees on the plane. */
+AngleBins binsAt(float degrees, double radius)
+{
+  const double angle = degrees * (ANGLE_BINS / 360.);
   const double half = .6 / std::max(.6, radius) * (ANGLE_BINS / (2 * CV_PI));
   AngleBins bins = 0;
   for (int bin = static_cast<int>(std::floor(angle - half)); bin <= std::floor(angle + half); ++bin)
@@ -37,35 +100,30 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
 {
   edgels.clear();
   const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
-  const cv::Point2d& c = family.center;
-  const double max_squared = max_radius * max_radius;
-  const double min_squared = MIN_RADIUS * MIN_RADIUS;
-  const double squared_cosine = min_cosine * min_cosine;
-  map.visit(c.x - half.x, c.y - half.y, c.x + half.x, c.y + half.y, [&](const Edgel& edgel) {
-    // RingFamily::toPlane() and the gradient of the radius, up to a positive factor, without divisions.
-    const double dx = edgel.x - c.x;
-    const double dy = edgel.y - c.y;
-    const double m00 = family.a - dx * family.hx;
-    const double m01 = family.b - dx * family.hy;
-    const double m10 = family.b - dy * family.hx;
-    const double m11 = family.d - dy * family.hy;
-    const double det = m00 * m11 - m01 * m10;
-    const double qx = m11 * dx - m01 * dy;
-    const double qy = m00 * dy - m10 * dx;
-    const double squared = qx * qx + qy * qy;
-    const double det_squared = det * det;
-    if (squared > max_squared * det_squared || squared < min_squared * det_squared)
+  const cv::Point2d top_left = family.center - half;
+  const cv::Point2d bottom_right = family.center + half;
+  const RadialTest test{family,
+                        top_left,
+                        bottom_right,
+                        MIN_RADIUS * MIN_RADIUS,
+                        max_radius * max_radius,
+                        min_cosine * min_cosine};
+  RadialChunk chunk;
+  map.visitTiles(top_left.x, top_left.y, bottom_right.x, bottom_right.y, [&](const EdgelTile& tile) {
+    for (std::size_t first = 0; first < tile.size(); first += CHUNK)
     {
-      return;
-    }
-    const double gx = m11 * qx - m10 * qy;
-    const double gy = m00 * qy - m01 * qx;
-    const double projection = gx * edgel.nx + gy * edgel.ny;
-    if (projection * projection >= squared_cosine * (gx * gx + gy * gy))
-    {
-      const double radius = std::sqrt(squared) / det;
-      edgels.push_back({cv::Point2f(edgel.x, edgel.y), static_cast<float>(radius), projection > 0,
-                        binsAt(cv::Point2d(qx, qy), radius)});
+      const float* x = tile.x() + first;
+      const float* y = tile.y() + first;
+      const std::size_t size = std::min(CHUNK, tile.size() - first);
+      testEdgels(test, x, y, tile.nx() + first, tile.ny() + first, size, chunk);
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        if (chunk.is_radial[i] != 0)
+        {
+          edgels.push_back({cv::Point2f(x[i], y[i]), chunk.radius[i], chunk.brighter_outside[i] != 0,
+                            binsAt(chunk.angle[i], chunk.radius[i])});
+        }
+      }
     }
   });
 }

@@ -1,0 +1,131 @@
+#include "gradient_tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "vectorized.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int HALO = 3;  // two pixels for the 5x5 kernels, one for the comparison with neighbours
+constexpr int SIDE = GradientTile::SIDE;
+constexpr int PIXELS = GradientTile::PIXELS + 2 * HALO;
+constexpr int CHANNELS = 3;
+constexpr int LANES = 16;
+
+/** One channel of the tile's pixels, replicated beyond the borders. */
+using Plane = std::array<std::array<std::int16_t, PIXELS>, PIXELS>;
+
+void splitRow(const uchar* row, std::int16_t* blue, std::int16_t* green, std::int16_t* red)
+{
+  const auto store = [](std::int16_t* channel, const cv::v_uint8x16& values) {
+    cv::v_uint16x8 low;
+    cv::v_uint16x8 high;
+    cv::v_expand(values, low, high);
+    cv::v_store(channel, cv::v_reinterpret_as_s16(low));
+    cv::v_store(channel + LANES / 2, cv::v_reinterpret_as_s16(high));
+  };
+  for (const int first : {0, LANES, PIXELS - LANES})
+  {
+    cv::v_uint8x16 b;
+    cv::v_uint8x16 g;
+    cv::v_uint8x16 r;
+    cv::v_load_deinterleave(row + CHANNELS * first, b, g, r);
+    store(blue + first, b);
+    store(green + first, g);
+    store(red + first, r);
+  }
+}
+
+void readPixels(const cv::Mat& bgr, int left, int top, std::array<Plane, CHANNELS>& planes)
+{
+  const int x0 = left - HALO;
+  const bool is_inside = x0 >= 0 && x0 + PIXELS <= bgr.cols;
+  std::array<uchar, CHANNELS * PIXELS> replicated;
+  for (int i = 0; i < PIXELS; ++i)
+  {
+    const auto* row = bgr.ptr<uchar>(std::clamp(top - HALO + i, 0, bgr.rows - 1));
+    for (int j = 0; j < PIXELS && !is_inside; ++j)
+    {
+      std::copy_n(row + CHANNELS * std::clamp(x0 + j, 0, bgr.cols - 1), CHANNELS, replicated.data() + CHANNELS * j);
+    }
+    splitRow(is_inside ? row + CHANNELS * x0 : replicated.data(), planes[0][i].data(), planes[1][i].data(),
+             planes[2][i].data());
+  }
+}
+
+/** Gradient of one channel: Sobel and Gaussian in one, separable 5x5 kernels. */
+struct ChannelGradient
+{
+  std::array<std::array<std::int16_t, SIDE>, SIDE> x, y;
+};
+
+OMR_VECTORIZED void differentiate(const Plane& plane, ChannelGradient& gradient)
+{
+  std::array<std::array<std::int16_t, SIDE>, PIXELS> smooth;
+  std::array<std::array<std::int16_t, SIDE>, PIXELS> slope;
+  for (int i = 0; i < PIXELS; ++i)
+  {
+    const std::int16_t* p = plane[i].data();
+    for (int j = 0; j < SIDE; ++j)
+    {
+      smooth[i][j] = static_cast<std::int16_t>(p[j] + 4 * p[j + 1] + 6 * p[j + 2] + 4 * p[j + 3] + p[j + 4]);
+      slope[i][j] = static_cast<std::int16_t>(p[j + 4] - p[j] + 2 * (p[j + 3] - p[j + 1]));
+    }
+  }
+  for (int i = 0; i < SIDE; ++i)
+  {
+    for (int j = 0; j < SIDE; ++j)
+    {
+      gradient.x[i][j] = static_cast<std::int16_t>(slope[i][j] + 4 * slope[i + 1][j] + 6 * slope[i + 2][j] +
+                                                   4 * slope[i + 3][j] + slope[i + 4][j]);
+      gradient.y[i][j] =
+          static_cast<std::int16_t>(smooth[i + 4][j] - smooth[i][j] + 2 * (smooth[i + 3][j] - smooth[i + 1][j]));
+    }
+  }
+}
+
+/** The strongest of the three channels' gradients at each pixel. */
+OMR_VECTORIZED void selectStrongest(const std::array<ChannelGradient, CHANNELS>& channels, GradientTile& tile)
+{
+  for (int i = 0; i < SIDE; ++i)
+  {
+    for (int j = 0; j < SIDE; ++j)
+    {
+      int x = channels[0].x[i][j];
+      int y = channels[0].y[i][j];
+      int strongest = x * x + y * y;
+      for (int c = 1; c < CHANNELS; ++c)
+      {
+        const int other_x = channels[c].x[i][j];
+        const int other_y = channels[c].y[i][j];
+        const int squared = other_x * other_x + other_y * other_y;
+        x = squared > strongest ? other_x : x;
+        y = squared > strongest ? other_y : y;
+        strongest = squared > strongest ? squared : strongest;
+      }
+      tile.x[i][j] = static_cast<float>(x);
+      tile.y[i][j] = static_cast<float>(y);
+      tile.magnitude[i][j] = std::sqrt(static_cast<float>(strongest)) * (1 / GradientTile::KERNEL_SUM);
+    }
+  }
+}
+}  // namespace
+
+void computeGradients(const cv::Mat& bgr, int left, int top, GradientTile& tile)
+{
+  std::array<Plane, CHANNELS> planes;
+  readPixels(bgr, left, top, planes);
+  std::array<ChannelGradient, CHANNELS> channels;
+  for (int c = 0; c < CHANNELS; ++c)
+  {
+    differentiate(planes[c], channels[c]);
+  }
+  selectStrongest(channels, tile);
+}
+
+}  // namespace omr
