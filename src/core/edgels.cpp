@@ -86,8 +86,8 @@ inline void findMaxima(const GradientTile& tile, int i, int j, float threshold, 
     maxima.y[lane] = step * ny;
     maxima.nx[lane] = nx;
     maxima.ny[lane] = ny;
-    maxima.is_edgel[lane] = static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) &
-                            static_cast<int>(here > behind);
+    maxima.is_edgel[lane] =
+        static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) & static_cast<int>(here > behind);
   }
 }
 

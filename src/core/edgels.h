@@ -11,8 +11,8 @@ namespace omr
 /** Edge element: a point of an edge with sub-pixel position and the direction of its gradient. */
 struct Edgel
 {
-  float x, y;       ///< [px], pixel (0, 0) has its centre at (0, 0)
-  float nx, ny;     ///< unit gradient of the strongest colour channel, towards the brighter side
+  float x, y;    ///< [px], pixel (0, 0) has its centre at (0, 0)
+  float nx, ny;  ///< unit gradient of the strongest colour channel, towards the brighter side
 };
 
 /** Edgels of a tile, each of their values side by side: loops over them take several at once. */

@@ -9,9 +9,9 @@ namespace omr
 /** Colour gradients of a square of pixels and of one pixel more around. */
 struct GradientTile
 {
-  static constexpr int PIXELS = 30;          // a side; a small target touches few tiles, a tile's border costs 44 %
-  static constexpr int SIDE = PIXELS + 2;    // a multiple of the vectors' length
-  static constexpr float KERNEL_SUM = 16;    // of the 3x3 Gaussian, which x and y contain undivided
+  static constexpr int PIXELS = 30;        // a side; a small target touches few tiles, a tile's border costs 44 %
+  static constexpr int SIDE = PIXELS + 2;  // a multiple of the vectors' length
+  static constexpr float KERNEL_SUM = 16;  // of the 3x3 Gaussian, which x and y contain undivided
 
   std::array<std::array<float, SIDE>, SIDE> x, y;       ///< whole numbers
   std::array<std::array<float, SIDE>, SIDE> magnitude;  ///< [grey levels]

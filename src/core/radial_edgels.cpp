@@ -102,12 +102,8 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
   const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
   const cv::Point2d top_left = family.center - half;
   const cv::Point2d bottom_right = family.center + half;
-  const RadialTest test{family,
-                        top_left,
-                        bottom_right,
-                        MIN_RADIUS * MIN_RADIUS,
-                        max_radius * max_radius,
-                        min_cosine * min_cosine};
+  const RadialTest test{
+      family, top_left, bottom_right, MIN_RADIUS * MIN_RADIUS, max_radius * max_radius, min_cosine * min_cosine};
   RadialChunk chunk;
   map.visitTiles(top_left.x, top_left.y, bottom_right.x, bottom_right.y, [&](const EdgelTile& tile) {
     for (std::size_t first = 0; first < tile.size(); first += CHUNK)

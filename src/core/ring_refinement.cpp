@@ -5,15 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "ring_residual.h"
+#include "ring_equations.h"
 
 namespace omr
 {
 namespace
 {
-using Normal = cv::Matx<double, 7, 7>;
-using Vector = FamilyVector;
-
 constexpr int MAX_STEPS = 8;
 constexpr int MAX_TRIALS = 4;
 constexpr double TUKEY = 3.5;                // of the deviation: full rejection
@@ -26,29 +23,6 @@ constexpr double LARGEST_ASPECT = 5;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
 constexpr double CONVERGED = 1e-3;    // relative change of the cost
 
-double tukeyWeight(double error, double limit)
-{
-  const double t = error / limit;
-  const double inside = std::max(0., 1 - t * t);
-  return inside * inside;
-}
-
-double tukeyLoss(double error, double limit)
-{
-  const double t = error / limit;
-  const double inside = 1 - t * t;
-  return inside <= 0 ? 1 : 1 - inside * inside * inside;
-}
-
-/** The normal equations, the radii already eliminated: each point knows but one of them. */
-struct Equations
-{
-  Normal normal = Normal::zeros();
-  Vector right = Vector::all(0);
-  std::array<Vector, MAX_BOUNDARIES> coupling{};
-  std::array<double, MAX_BOUNDARIES> diagonal{}, radius_right{};
-};
-
 class Fit
 {
  public:
@@ -59,11 +33,11 @@ class Fit
   bool run(RingFamily& family, std::vector<double>& radii)
   {
     double damping = 1e-4;
-    evaluate(family, radii, errors_);
+    points_.measure(family, radii, errors_);
     for (int step = 0; step < MAX_STEPS; ++step)
     {
       estimateDeviation();
-      const Equations equations = build(family, radii);
+      const RingEquations equations = build(family, radii);
       const double before = cost(family, radii, errors_);
       double after = before;
       bool accepted = false;
@@ -73,7 +47,7 @@ class Fit
         std::vector<double> next_radii = radii;
         if (solve(equations, damping, next, next_radii))
         {
-          evaluate(next, next_radii, next_errors_);
+          points_.measure(next, next_radii, next_errors_);
           after = cost(next, next_radii, next_errors_);
           accepted = after <= before;
         }
@@ -108,15 +82,6 @@ class Fit
   }
 
  private:
-  void evaluate(const RingFamily& family, const std::vector<double>& radii, std::vector<double>& errors) const
-  {
-    errors.resize(points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i)
-    {
-      errors[i] = circleDistance(family, radii, points_[i], nullptr, nullptr);
-    }
-  }
-
   void estimateDeviation()
   {
     sizes_.resize(errors_.size());
@@ -135,49 +100,15 @@ class Fit
 
   double cost(const RingFamily& family, const std::vector<double>& radii, const std::vector<double>& errors) const
   {
-    double sum = 0;
-    for (const double error : errors)
-    {
-      sum += tukeyLoss(error, limit_);
-    }
-    // Tukey's loss is 3 (e / limit)^2 for small errors e.
-    return sum + 3 * priorWeight(radii) * (family.hx * family.hx + family.hy * family.hy) / (limit_ * limit_);
+    return tukeyLoss(errors, limit_) +
+           3 * priorWeight(radii) * (family.hx * family.hx + family.hy * family.hy) / (limit_ * limit_);
   }
 
-  Equations build(const RingFamily& family, const std::vector<double>& radii) const
+  RingEquations build(const RingFamily& family, const std::vector<double>& radii)
   {
-    Equations equations;
-    for (const BoundaryPoint& point : points_)
-    {
-      Vector derivative;
-      double by_radius = 0;
-      const double error = circleDistance(family, radii, point, &derivative, &by_radius);
-      const double weight = tukeyWeight(error, limit_);
-      if (weight <= 0)
-      {
-        continue;
-      }
-      for (int i = 0; i < 7; ++i)
-      {
-        const double wi = weight * derivative[i];
-        equations.right[i] -= wi * error;
-        equations.coupling[point.ring][i] += wi * by_radius;
-        for (int j = i; j < 7; ++j)
-        {
-          equations.normal(i, j) += wi * derivative[j];
-        }
-      }
-      equations.diagonal[point.ring] += weight * by_radius * by_radius;
-      equations.radius_right[point.ring] -= weight * by_radius * error;
-    }
+    points_.differentiate(family, derivatives_);
+    RingEquations equations = sumEquations(points_, derivatives_, errors_, limit_);
     const std::array<double, 3> det = {family.d, -2 * family.b, family.a};
-    for (int i = 0; i < 7; ++i)
-    {
-      for (int j = 0; j < i; ++j)
-      {
-        equations.normal(i, j) = equations.normal(j, i);
-      }
-    }
     for (int i = 0; i < 3; ++i)
     {
       for (int j = 0; j < 3; ++j)
@@ -196,36 +127,17 @@ class Fit
     return equations;
   }
 
-  static bool solve(const Equations& equations, double damping, RingFamily& family, std::vector<double>& radii)
+  static bool solve(const RingEquations& equations, double damping, RingFamily& family, std::vector<double>& radii)
   {
-    Normal normal = equations.normal;
-    Vector right = equations.right;
-    for (int i = 0; i < 7; ++i)
-    {
-      normal(i, i) *= 1 + damping;
-    }
-    std::array<double, MAX_BOUNDARIES> diagonal{};
-    for (std::size_t k = 0; k < radii.size(); ++k)
-    {
-      diagonal[k] = equations.diagonal[k] * (1 + damping) + 1e-9;
-      const Vector& coupling = equations.coupling[k];
-      for (int i = 0; i < 7; ++i)
-      {
-        right[i] -= coupling[i] * equations.radius_right[k] / diagonal[k];
-        for (int j = 0; j < 7; ++j)
-        {
-          normal(i, j) -= coupling[i] * coupling[j] / diagonal[k];
-        }
-      }
-    }
-    Vector step;
-    if (!cv::solve(normal, right, step, cv::DECOMP_CHOLESKY))
+    FamilyVector step;
+    std::array<double, MAX_BOUNDARIES> radius_step{};
+    if (!equations.solve(damping, radii.size(), step, radius_step))
     {
       return false;
     }
     for (std::size_t k = 0; k < radii.size(); ++k)
     {
-      radii[k] += (equations.radius_right[k] - equations.coupling[k].dot(step)) / diagonal[k];
+      radii[k] += radius_step[k];
     }
     family.center += cv::Point2d(step[0], step[1]);
     family.a += step[2];
@@ -264,10 +176,11 @@ class Fit
     return std::hypot(family.hx, family.hy) * inner < LARGEST_PERSPECTIVE && family.aspect() < LARGEST_ASPECT;
   }
 
-  const std::vector<BoundaryPoint>& points_;
+  CircleDistances points_;
   bool perspective_;
   std::vector<double> errors_, next_errors_, sizes_;  // [px]
-  double limit_ = 1;                                  // Tukey's: errors beyond it do not count [px]
+  std::vector<CircleDerivative> derivatives_;
+  double limit_ = 1;  // Tukey's: errors beyond it do not count [px]
 };
 }  // namespace
 

@@ -1,23 +1,45 @@
 #ifndef OUTDOOR_OMR_CORE_RING_RESIDUAL_H
 #define OUTDOOR_OMR_CORE_RING_RESIDUAL_H
 
+#include <array>
 #include <vector>
 
 #include "ring_refinement.h"
 
 namespace omr
 {
-/** A value for each unknown of a family: centre x, y, shape a, b, d, perspective hx, hy. */
-using FamilyVector = cv::Vec<double, 7>;
+/** The unknowns of a family: centre x, y, shape a, b, d, perspective hx, hy. */
+constexpr int FAMILY_UNKNOWNS = 7;
 
-/**
- * Distance of a point to its circle in the image, positive outside [px].
- *
- * @param derivative receives the derivative by the family's unknowns, if not null.
- * @param by_radius  receives that by the circle's radius, if derivative is not null.
- */
-double circleDistance(const RingFamily& family, const std::vector<double>& radii, const BoundaryPoint& point,
-                      FamilyVector* derivative, double* by_radius);
+/** Derivative of a point's distance by the family's unknowns and by the radius of its circle. */
+using CircleDerivative = std::array<double, FAMILY_UNKNOWNS + 1>;
+
+/** Points with the circles that they lie on; their distances are computed several at once. */
+class CircleDistances
+{
+ public:
+  explicit CircleDistances(const std::vector<BoundaryPoint>& points);
+
+  std::size_t size() const
+  {
+    return x_.size();
+  }
+
+  int ring(std::size_t point) const
+  {
+    return ring_[point];
+  }
+
+  /** Distance of each point to its circle in the image, positive outside [px]. */
+  void measure(const RingFamily& family, const std::vector<double>& radii, std::vector<double>& distances) const;
+
+  /** Their derivatives. */
+  void differentiate(const RingFamily& family, std::vector<CircleDerivative>& derivatives) const;
+
+ private:
+  std::vector<double> x_, y_;  // [px]
+  std::vector<int> ring_;
+};
 
 }  // namespace omr
 

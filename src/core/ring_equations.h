@@ -1,0 +1,43 @@
+#ifndef OUTDOOR_OMR_CORE_RING_EQUATIONS_H
+#define OUTDOOR_OMR_CORE_RING_EQUATIONS_H
+
+#include <array>
+#include <vector>
+
+#include "ring_residual.h"
+
+namespace omr
+{
+using FamilyVector = cv::Vec<double, FAMILY_UNKNOWNS>;
+
+/** Normal equations of a family and of the radii, apart: each point knows but one radius. */
+struct RingEquations
+{
+  cv::Matx<double, FAMILY_UNKNOWNS, FAMILY_UNKNOWNS> normal;
+  FamilyVector right;
+  std::array<FamilyVector, MAX_BOUNDARIES> coupling{};
+  std::array<double, MAX_BOUNDARIES> diagonal{}, radius_right{};
+
+  /**
+   * Solves with the diagonal raised by the share of damping; the radii are eliminated.
+   *
+   * @param count of the radii.
+   * @return      false if the points do not determine the unknowns.
+   */
+  bool solve(double damping, std::size_t count, FamilyVector& step,
+             std::array<double, MAX_BOUNDARIES>& radius_step) const;
+};
+
+/** Tukey's weight [0, 1] of a point with this error. */
+double tukeyWeight(double error, double limit);
+
+/** Sum of Tukey's loss of the points, which is 3 (e / limit)^2 for small errors e and 1 from the limit on. */
+double tukeyLoss(const std::vector<double>& errors, double limit);
+
+/** The equations of the points, weighted by Tukey. */
+RingEquations sumEquations(const CircleDistances& points, const std::vector<CircleDerivative>& derivatives,
+                           const std::vector<double>& errors, double limit);
+
+}  // namespace omr
+
+#endif
