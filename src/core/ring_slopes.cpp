@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
+
+#include "lane_median.h"
 
 namespace omr
 {
@@ -29,38 +32,116 @@ float brightest(const cv::Vec3f& grey)
   return std::max({grey[0], grey[1], grey[2]});
 }
 
+bool isSteep(float sum_of_sizes, int count)
+{
+  return sum_of_sizes > .5 * MIN_SLOPE * count;  // where it is small, the median is smaller
+}
+
+/** At a radius that not all rays reach. */
+cv::Vec3f medianSlope(const RingProfile& profile, int i, int reach)
+{
+  std::array<Values, 3> values;
+  int count = 0;
+  cv::Vec3f sum;  // of the sizes
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    if (i + reach < profile.inside[angle])
+    {
+      const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
+      const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
+      const float scale = 1 / (brightest(inner) + brightest(outer) + DARK_LEVEL);
+      for (int c = 0; c < 3; ++c)
+      {
+        values[c][count] = (outer[c] - inner[c]) * scale;
+        sum[c] += std::abs(values[c][count]);
+      }
+      ++count;
+    }
+  }
+  cv::Vec3f slope;
+  for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
+  {
+    slope[c] = isSteep(sum[c], count) ? median(values[c], count) : 0;
+  }
+  return slope;
+}
+
+/** The same for LANES radii from i on that all rays reach. */
+class SlopeLanes
+{
+ public:
+  static constexpr int LANES = static_cast<int>(MEDIAN_LANES);
+
+  void find(const RingProfile& profile, int i, int reach, cv::Vec3f* slopes)
+  {
+    sums_ = {};
+    for (int angle = 0; angle < ANGLES; ++angle)
+    {
+      const float* inner = profile.greyRay(angle)[i - reach].val;
+      const float* outer = profile.greyRay(angle)[i + reach].val;
+      add(inner, outer, angle, 0);
+      add(inner + 3 * LANES / 2, outer + 3 * LANES / 2, angle, LANES / 2);
+    }
+    for (int c = 0; c < 3; ++c)
+    {
+      const LaneRow& sums = sums_[c];
+      LaneRow medians{};
+      if (std::any_of(sums.begin(), sums.end(), [](float sum) { return isSteep(sum, ANGLES); }))
+      {
+        upperMedians(values_[c], medians);
+      }
+      for (int lane = 0; lane < LANES; ++lane)
+      {
+        slopes[lane][c] = isSteep(sums[lane], ANGLES) ? medians[lane] : 0;
+      }
+    }
+  }
+
+ private:
+  /** The slopes of one ray, four radii from a lane on. */
+  void add(const float* inner, const float* outer, int angle, int lane)
+  {
+    std::array<cv::v_float32x4, 3> in;
+    std::array<cv::v_float32x4, 3> out;
+    cv::v_load_deinterleave(inner, in[0], in[1], in[2]);
+    cv::v_load_deinterleave(outer, out[0], out[1], out[2]);
+    const cv::v_float32x4 brightness = cv::v_max(cv::v_max(in[0], in[1]), in[2]) +
+                                       cv::v_max(cv::v_max(out[0], out[1]), out[2]) + cv::v_setall_f32(DARK_LEVEL);
+    const cv::v_float32x4 scale = cv::v_setall_f32(1) / brightness;
+    for (int c = 0; c < 3; ++c)
+    {
+      const cv::v_float32x4 slope = (out[c] - in[c]) * scale;
+      float* sum = &sums_[c][lane];
+      cv::v_store(&values_[c][angle][lane], slope);
+      cv::v_store(sum, cv::v_load(sum) + cv::v_abs(slope));
+    }
+  }
+
+  std::array<std::array<LaneRow, MEDIAN_COUNT>, 3> values_;
+  std::array<LaneRow, 3> sums_;  // of the sizes
+};
+
 /**
  * Median slope of each channel at each radius, relative to the brightness there. Of grey levels: logarithms would move
  * a rising and a falling channel of one edge apart.
  */
 std::vector<cv::Vec3f> medianSlopes(const RingProfile& profile)
 {
+  static_assert(ANGLES == static_cast<int>(MEDIAN_COUNT), "a lane holds a value of each ray");
+  constexpr int LANES = SlopeLanes::LANES;
   const int reach = std::max(1, static_cast<int>(std::lround(1 / profile.step)));
   std::vector<cv::Vec3f> slopes(static_cast<std::size_t>(profile.count));
-  for (int i = reach; i + reach < profile.count; ++i)
+  // Up to here all rays reach; where there are fewer radii than lanes, none is taken in lanes.
+  const int all = *std::min_element(profile.inside.begin(), profile.inside.end()) - reach;
+  int i = reach;
+  for (SlopeLanes lanes; i < all && all - reach >= LANES; i += LANES)
   {
-    std::array<Values, 3> values;
-    int count = 0;
-    cv::Vec3f sum;  // of the sizes: where it is small, the median is smaller
-    for (int angle = 0; angle < ANGLES; ++angle)
-    {
-      if (i + reach < profile.inside[angle])
-      {
-        const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
-        const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
-        const float scale = 1 / (brightest(inner) + brightest(outer) + DARK_LEVEL);
-        for (int c = 0; c < 3; ++c)
-        {
-          values[c][count] = (outer[c] - inner[c]) * scale;
-          sum[c] += std::abs(values[c][count]);
-        }
-        ++count;
-      }
-    }
-    for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
-    {
-      slopes[i][c] = sum[c] > .5 * MIN_SLOPE * count ? median(values[c], count) : 0;
-    }
+    i = std::min(i, all - LANES);  // the last ones overlap those before
+    lanes.find(profile, i, reach, &slopes[i]);
+  }
+  for (; i + reach < profile.count; ++i)
+  {
+    slopes[i] = medianSlope(profile, i, reach);
   }
   return slopes;
 }
