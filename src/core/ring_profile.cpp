@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "vectorized.h"
+
 namespace omr
 {
 namespace
@@ -33,15 +35,61 @@ const std::array<float, 255 * LEVELS_PER_GREY + 2>& logarithms()
   return LOGARITHM_OF_LEVEL;
 }
 
-/** Bilinear sample; the caller keeps x and y inside [0, size - 1). */
+/** Unit vectors of the rays. */
+const std::array<cv::Point2d, RingProfile::ANGLES>& directions()
+{
+  static const auto DIRECTION_OF_ANGLE = [] {
+    std::array<cv::Point2d, RingProfile::ANGLES> table;
+    for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
+    {
+      const double phi = 2 * CV_PI * (angle + .5) / RingProfile::ANGLES;
+      table[angle] = cv::Point2d(std::cos(phi), std::sin(phi));
+    }
+    return table;
+  }();
+  return DIRECTION_OF_ANGLE;
+}
+
+/** Where a ray's samples lie. */
+struct Places
+{
+  static constexpr int SIZE = MAX_SAMPLES + 2;
+
+  std::array<float, SIZE> x, y;     // [px]
+  std::array<int, SIZE> is_inside;  // the image, with a pixel to the right and below
+};
+
+OMR_VECTORIZED void placeSamples(const RingFamily& source, const cv::Point2d& direction, double step, int count,
+                                 const cv::Size& image, Places& places)
+{
+  const RingFamily family = source;
+  const cv::Point2d towards = direction;
+  const double right = image.width - 1;
+  const double bottom = image.height - 1;
+  for (int i = 0; i < count; ++i)
+  {
+    // RingFamily::toImage()
+    const double qx = towards.x * (i * step);
+    const double qy = towards.y * (i * step);
+    const double k = 1 / (1 + family.hx * qx + family.hy * qy);
+    const double x = family.center.x + (family.a * qx + family.b * qy) * k;
+    const double y = family.center.y + (family.b * qx + family.d * qy) * k;
+    places.x[i] = static_cast<float>(x);
+    places.y[i] = static_cast<float>(y);
+    places.is_inside[i] = (x >= 0) & (y >= 0) & (x < right) & (y < bottom) ? 1 : 0;
+  }
+}
+
+/** Bilinear sample at a place inside the image. */
 cv::Vec3f sample(const cv::Mat& bgr, float x, float y)
 {
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
+  // A place just before the last pixel may be rounded onto it.
+  const int left = std::min(static_cast<int>(x), bgr.cols - 2);
+  const int top = std::min(static_cast<int>(y), bgr.rows - 2);
   const float fx = x - left;
   const float fy = y - top;
   const auto* upper = bgr.ptr<uchar>(top) + 3 * left;
-  const auto* lower = bgr.ptr<uchar>(top + 1) + 3 * left;
+  const auto* lower = upper + bgr.step[0];
   cv::Vec3f grey;
   for (int c = 0; c < 3; ++c)
   {
@@ -52,13 +100,20 @@ cv::Vec3f sample(const cv::Mat& bgr, float x, float y)
   return grey;
 }
 
+/** std::lround() of what is not negative, without a call. */
+int nearest(float value)
+{
+  const int whole = static_cast<int>(value);
+  return whole + (value - static_cast<float>(whole) >= .5F ? 1 : 0);
+}
+
 LogColor logarithm(const cv::Vec3f& grey)
 {
   const auto& table = logarithms();
   LogColor color;
   for (int c = 0; c < 3; ++c)
   {
-    color[c] = table[static_cast<std::size_t>(std::lround(grey[c] * LEVELS_PER_GREY))];
+    color[c] = table[nearest(grey[c] * LEVELS_PER_GREY)];
   }
   return color;
 }
@@ -83,21 +138,20 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
   profile.grey.resize(static_cast<std::size_t>(RingProfile::ANGLES) * profile.count);
   profile.color.resize(profile.grey.size());
   profile.inside.assign(RingProfile::ANGLES, profile.count);
+  Places places;
   for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
   {
-    const double phi = 2 * CV_PI * (angle + .5) / RingProfile::ANGLES;
-    const cv::Point2d direction(std::cos(phi), std::sin(phi));
+    placeSamples(family, directions()[angle], profile.step, profile.count, bgr.size(), places);
     cv::Vec3f* grey = &profile.grey[static_cast<std::size_t>(angle) * profile.count];
     LogColor* color = &profile.color[static_cast<std::size_t>(angle) * profile.count];
     for (int i = 0; i < profile.count; ++i)
     {
-      const cv::Point2d p = family.toImage(direction * (i * profile.step));
-      if (!(p.x >= 0 && p.y >= 0 && p.x < bgr.cols - 1 && p.y < bgr.rows - 1))
+      if (places.is_inside[i] == 0)
       {
         profile.inside[angle] = i;
         break;
       }
-      grey[i] = sample(bgr, static_cast<float>(p.x), static_cast<float>(p.y));
+      grey[i] = sample(bgr, places.x[i], places.y[i]);
       color[i] = logarithm(grey[i]);
     }
   }
