@@ -14,6 +14,7 @@ namespace
 constexpr int MARGIN = 4;     // px at the border of the image without saddle points
 constexpr int MIN_SIDE = 16;  // px of an image that can hold a lattice
 constexpr int LANES = 8;
+constexpr int STRIPS = 8;  // of the image, shared by the threads; the points do not depend on how many there are
 
 /** What a saddle point must have at least. */
 struct Threshold
@@ -26,31 +27,91 @@ constexpr Threshold FAINT = {4, 6};
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
-/** 4 (Ixy^2 - Ixx Iyy) of one row, saturated; positive at saddle points. Eight pixels at a time: the whole image passes
- * through here. */
-void saddleResponse(const uchar* above, const uchar* here, const uchar* below, int width, std::int16_t* response)
+/** Of three rows, each in turn the newest, what their saddle response is made of. */
+class ResponseRows
 {
-  const auto load = [](const uchar* pixels) { return cv::v_reinterpret_as_s16(cv::v_load_expand(pixels)); };
-  const auto respond = [&](int x) {
-    const cv::v_int16x8 twice = load(here + x) << 1;
-    const cv::v_int16x8 xx = load(here + x - 1) + load(here + x + 1) - twice;
-    const cv::v_int16x8 yy = load(above + x) + load(below + x) - twice;
-    const cv::v_int16x8 xy = load(above + x - 1) + load(below + x + 1) - load(above + x + 1) - load(below + x - 1);
-    cv::v_int32x4 xy2_low;
-    cv::v_int32x4 xy2_high;
-    cv::v_int32x4 product_low;
-    cv::v_int32x4 product_high;
-    cv::v_mul_expand(xy, xy, xy2_low, xy2_high);
-    cv::v_mul_expand(xx, yy, product_low, product_high);
-    cv::v_store(response + x, cv::v_pack((xy2_low >> 2) - (product_low << 2), (xy2_high >> 2) - (product_high << 2)));
-  };
-  int x = 1;
-  for (; x + LANES <= width - 1; x += LANES)
+ public:
+  explicit ResponseRows(int width) : width_(width), values_(6 * static_cast<std::size_t>(width))
   {
-    respond(x);
   }
-  respond(width - 1 - LANES);
-}
+
+  /** Takes the row below the last one. */
+  void push(const uchar* row)
+  {
+    newest_ = (newest_ + 1) % 3;
+    std::int16_t* values = grey(0);
+    std::int16_t* slopes = slope(0);
+    forEachBlock(0, width_,
+                 [&](int x) { cv::v_store(values + x, cv::v_reinterpret_as_s16(cv::v_load_expand(row + x))); });
+    forEachBlock(1, width_ - 1,
+                 [&](int x) { cv::v_store(slopes + x, cv::v_load(values + x + 1) - cv::v_load(values + x - 1)); });
+  }
+
+  /** 4 (Ixy^2 - Ixx Iyy) of the row in the middle, saturated; positive at saddle points. Eight pixels at a time: the
+   * whole image passes through here. */
+  void respond(std::int16_t* response) const
+  {
+    const std::int16_t* above = grey(2);
+    const std::int16_t* here = grey(1);
+    const std::int16_t* below = grey(0);
+    const std::int16_t* slope_above = slope(2);
+    const std::int16_t* slope_below = slope(0);
+    forEachBlock(1, width_ - 1, [&](int x) {
+      const cv::v_int16x8 twice = cv::v_load(here + x) << 1;
+      const cv::v_int16x8 xx = cv::v_load(here + x - 1) + cv::v_load(here + x + 1) - twice;
+      const cv::v_int16x8 yy = cv::v_load(above + x) + cv::v_load(below + x) - twice;
+      const cv::v_int16x8 xy = cv::v_load(slope_below + x) - cv::v_load(slope_above + x);
+      // 16 Ixy^2 - 16 Ixx Iyy as one sum of two products.
+      const cv::v_int16x8 minus_yy = cv::v_setzero_s16() - (yy << 4);
+      cv::v_int16x8 left_low;
+      cv::v_int16x8 left_high;
+      cv::v_int16x8 right_low;
+      cv::v_int16x8 right_high;
+      cv::v_zip(xy, xx, left_low, left_high);
+      cv::v_zip(xy, minus_yy, right_low, right_high);
+      cv::v_store(response + x,
+                  cv::v_pack(cv::v_dotprod(left_low, right_low) >> 2, cv::v_dotprod(left_high, right_high) >> 2));
+    });
+  }
+
+ private:
+  /** Calls the action for blocks of LANES; the last one overlaps the one before. */
+  template <typename Action>
+  static void forEachBlock(int from, int to, const Action& action)
+  {
+    int x = from;
+    for (; x + LANES <= to; x += LANES)
+    {
+      action(x);
+    }
+    action(to - LANES);
+  }
+
+  std::size_t offset(int age) const
+  {
+    return static_cast<std::size_t>((newest_ + 3 - age) % 3) * 2 * width_;
+  }
+  std::int16_t* grey(int age)
+  {
+    return &values_[offset(age)];
+  }
+  const std::int16_t* grey(int age) const
+  {
+    return &values_[offset(age)];
+  }
+  std::int16_t* slope(int age)
+  {
+    return &values_[offset(age) + width_];
+  }
+  const std::int16_t* slope(int age) const
+  {
+    return &values_[offset(age) + width_];
+  }
+
+  int width_;
+  int newest_ = 0;
+  std::vector<std::int16_t> values_;  // of each row the grey values, and their differences along it
+};
 
 using Rows = std::array<const std::int16_t*, 3>;  // responses of three rows, from top to bottom
 
@@ -112,30 +173,27 @@ bool isPointSymmetric(const cv::Mat& grey, int x, int y, int min_range)
          static_cast<float>(sum) <= 2.2F * MAX_ASYMMETRY * range;
 }
 
-}  // namespace
-
-std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max_count)
+struct Point
 {
-  struct Point
-  {
-    std::int16_t response;
-    cv::Point place;
-  };
-  const Threshold& least = faint ? FAINT : CLEAR;
-  std::vector<cv::Point> points;
-  std::vector<Point> found;
-  if (grey.cols < MIN_SIDE || grey.rows < MIN_SIDE)
-  {
-    return points;
-  }
+  std::int16_t response;
+  cv::Point place;
+};
+
+/** The saddle points of the rows [from, to). */
+void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, std::vector<Point>& found)
+{
   const int width = grey.cols;
+  ResponseRows source(width);
   std::vector<std::int16_t> buffer(3 * width, 0);
   std::array<std::int16_t*, 3> rows = {buffer.data(), buffer.data() + width, buffer.data() + 2 * width};
-  for (int y = MARGIN - 1; y <= grey.rows - MARGIN; ++y)
+  source.push(grey.ptr<uchar>(from - 2));
+  source.push(grey.ptr<uchar>(from - 1));
+  for (int y = from - 1; y <= to; ++y)
   {
     std::rotate(rows.begin(), rows.begin() + 1, rows.end());
-    saddleResponse(grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), width, rows[2]);
-    if (y < MARGIN + 1)
+    source.push(grey.ptr<uchar>(y + 1));
+    source.respond(rows[2]);
+    if (y < from + 1)
     {
       continue;
     }
@@ -145,6 +203,30 @@ std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max
         found.push_back({rows[1][x], {x, y - 1}});
       }
     });
+  }
+}
+}  // namespace
+
+std::vector<cv::Point> findSaddlePoints(const cv::Mat& grey, bool faint, int max_count)
+{
+  const Threshold& least = faint ? FAINT : CLEAR;
+  std::vector<cv::Point> points;
+  if (grey.cols < MIN_SIDE || grey.rows < MIN_SIDE)
+  {
+    return points;
+  }
+  const int height = grey.rows - 2 * MARGIN;
+  std::array<std::vector<Point>, STRIPS> strips;
+  cv::parallel_for_(cv::Range(0, STRIPS), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      findInRows(grey, least, MARGIN + height * i / STRIPS, MARGIN + height * (i + 1) / STRIPS, strips[i]);
+    }
+  });
+  std::vector<Point> found;
+  for (const std::vector<Point>& strip : strips)
+  {
+    found.insert(found.end(), strip.begin(), strip.end());
   }
   if (static_cast<int>(found.size()) > max_count)
   {

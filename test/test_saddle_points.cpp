@@ -1,0 +1,74 @@
+#include "outdoor_omr/saddle_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+constexpr int SQUARE = 9;  // px, odd: the corners fall on every row modulo 8
+
+/** Squares all over the image: its corners lie where the threads' parts meet, too. */
+cv::Mat squares(const cv::Size& size)
+{
+  cv::Mat grey(size, CV_8UC1);
+  for (int y = 0; y < size.height; ++y)
+  {
+    for (int x = 0; x < size.width; ++x)
+    {
+      grey.at<uchar>(y, x) = (x / SQUARE + y / SQUARE) % 2 == 0 ? 40 : 200;
+    }
+  }
+  return grey;
+}
+}  // namespace
+
+TEST(SaddlePoints, eachCornerOnceWhereverTheThreadsMeet)
+{
+  for (const int height : {16, 17, 100, 243})
+  {
+    const cv::Mat grey = squares({157, height});
+    const std::vector<cv::Point> points = omr::findSaddlePoints(grey, false, 10000);
+    const auto corners = [](int length) {
+      constexpr int MARGIN = 4;  // px without saddle points
+      int count = 0;
+      for (int x = SQUARE - 1; x < length - MARGIN; x += SQUARE)
+      {
+        count += x >= MARGIN ? 1 : 0;
+      }
+      return count;
+    };
+    const int expected = corners(157) * corners(height);
+    EXPECT_EQ(expected, static_cast<int>(points.size())) << height;
+    for (const cv::Point& point : points)
+    {
+      EXPECT_LE((point.x + 1) % SQUARE, 1) << point;
+      EXPECT_LE((point.y + 1) % SQUARE, 1) << point;
+    }
+  }
+}
+
+TEST(SaddlePoints, areInOrderOfTheirPixelsForAnyNumberOfThreads)
+{
+  cv::Mat grey = squares({300, 211});
+  cv::Mat noise(grey.size(), CV_8UC1);
+  cv::RNG(9).fill(noise, cv::RNG::UNIFORM, 0, 30);
+  grey += noise;
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const std::vector<cv::Point> alone = omr::findSaddlePoints(grey, true, 100000);
+  cv::setNumThreads(3);
+  const std::vector<cv::Point> shared = omr::findSaddlePoints(grey, true, 100000);
+  cv::setNumThreads(threads);
+  EXPECT_GT(alone.size(), 500U);
+  EXPECT_EQ(alone, shared);
+  EXPECT_TRUE(std::is_sorted(shared.begin(), shared.end(), [](const cv::Point& a, const cv::Point& b) {
+    return a.y < b.y || (a.y == b.y && a.x < b.x);
+  }));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
