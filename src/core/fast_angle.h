@@ -9,7 +9,7 @@ namespace omr
 /** Direction of a vector [0, 360] degrees, the same as cv::fastAtan2() to the bit, but inline and without branches. */
 inline float fastAngle(float x, float y)
 {
-  constexpr float DEGREES = static_cast<float>(180 / 3.141592653589793238462643383279502884);
+  constexpr auto DEGREES = static_cast<float>(180 / 3.141592653589793238462643383279502884);
   constexpr float P1 = 0.9997878412794807F * DEGREES;
   constexpr float P3 = -0.3258083974640975F * DEGREES;
   constexpr float P5 = 0.1555786518463281F * DEGREES;
