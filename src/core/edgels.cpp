@@ -157,13 +157,18 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
 }
 }  // namespace
 
-EdgelMap::EdgelMap(const cv::Mat& bgr, std::size_t max_looks)
-    : bgr_(bgr),
-      max_looks_(max_looks),
-      grid_((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE),
-      tiles_(static_cast<std::size_t>(grid_.area()))
+EdgelMap::Tiles::Tiles(const cv::Mat& image, const cv::Size& size)
+    : bgr(image), grid(size), tiles(static_cast<std::size_t>(size.area()))
 {
-  threshold_ = std::clamp(NOISE_FACTOR * medianMagnitude(bgr, grid_), LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
+}
+
+EdgelMap::EdgelMap(const cv::Mat& bgr, std::size_t max_looks)
+    : shared_(std::make_shared<Tiles>(bgr, cv::Size((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE))),
+      visited_(shared_->tiles.size(), 0),
+      max_looks_(max_looks)
+{
+  const float noise = medianMagnitude(bgr, shared_->grid);
+  threshold_ = std::clamp(NOISE_FACTOR * noise, LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
 }
 
 cv::Rect EdgelMap::tilesOf(double left, double top, double right, double bottom) const
@@ -172,29 +177,41 @@ cv::Rect EdgelMap::tilesOf(double left, double top, double right, double bottom)
   const auto index = [](double position, int limit) {
     return static_cast<int>(std::clamp(std::floor(position / TILE), 0., limit - 1.));
   };
-  const int x0 = index(left - 1, grid_.width);
-  const int y0 = index(top - 1, grid_.height);
-  return {x0, y0, index(right + 1, grid_.width) - x0 + 1, index(bottom + 1, grid_.height) - y0 + 1};
+  const int x0 = index(left - 1, shared_->grid.width);
+  const int y0 = index(top - 1, shared_->grid.height);
+  return {x0, y0, index(right + 1, shared_->grid.width) - x0 + 1, index(bottom + 1, shared_->grid.height) - y0 + 1};
 }
 
 const EdgelTile& EdgelMap::tile(int col, int row)
 {
-  Tile& tile = tiles_[static_cast<std::size_t>(row) * grid_.width + col];
-  if (!tile.computed)
+  const std::size_t index = static_cast<std::size_t>(row) * shared_->grid.width + col;
+  Tile& tile = shared_->tiles[index];
+  looks_ += visited_[index] == 0 ? TILE_LOOKS : 0;
+  visited_[index] = 1;
+  if (!tile.is_computed.load(std::memory_order_acquire))
   {
-    tile.computed = true;
-    looks_ += TILE_LOOKS;
-    GradientTile gradients;
-    const cv::Point origin(col * TILE, row * TILE);
-    computeGradients(bgr_, origin.x, origin.y, gradients);
-    // The picture's outermost pixels have no neighbours to compare with.
-    const cv::Point first(col == 0 ? 2 : 1, row == 0 ? 2 : 1);
-    const cv::Point end(std::min(TILE, bgr_.cols - 1 - origin.x) + 1, std::min(TILE, bgr_.rows - 1 - origin.y) + 1);
-    EdgelBuffer buffer;
-    findEdgels(gradients, cv::Rect(first, cv::Size(end - first)), origin, threshold_, buffer);
-    tile.edgels.assign(buffer.count, buffer.x.data(), buffer.y.data(), buffer.nx.data(), buffer.ny.data());
+    const std::lock_guard<std::mutex> lock(shared_->locks[index % shared_->locks.size()]);
+    if (!tile.is_computed.load(std::memory_order_relaxed))
+    {
+      compute(col, row, tile.edgels);
+      tile.is_computed.store(true, std::memory_order_release);
+    }
   }
   return tile.edgels;
+}
+
+void EdgelMap::compute(int col, int row, EdgelTile& edgels) const
+{
+  const cv::Mat& bgr = shared_->bgr;
+  GradientTile gradients;
+  const cv::Point origin(col * TILE, row * TILE);
+  computeGradients(bgr, origin.x, origin.y, gradients);
+  // The picture's outermost pixels have no neighbours to compare with.
+  const cv::Point first(col == 0 ? 2 : 1, row == 0 ? 2 : 1);
+  const cv::Point end(std::min(TILE, bgr.cols - 1 - origin.x) + 1, std::min(TILE, bgr.rows - 1 - origin.y) + 1);
+  EdgelBuffer buffer;
+  findEdgels(gradients, cv::Rect(first, cv::Size(end - first)), origin, threshold_, buffer);
+  edgels.assign(buffer.count, buffer.x.data(), buffer.y.data(), buffer.nx.data(), buffer.ny.data());
 }
 
 }  // namespace omr

@@ -2,7 +2,11 @@
 #define OUTDOOR_OMR_CORE_EDGELS_H
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -62,7 +66,9 @@ class EdgelTile
  * Edgels of an image, computed in tiles when they are first asked for: most of a picture never is.
  *
  * An edgel is a maximum of the gradient along its own direction, placed by a parabola. The gradient is that of the
- * strongest of B, G and R, as in the fill pipeline's edges (paper, section 3.1). Not thread-safe.
+ * strongest of B, G and R, as in the fill pipeline's edges (paper, section 3.1).
+ *
+ * Copies share the tiles and count their looks apart: threads work with one each.
  */
 class EdgelMap
 {
@@ -79,10 +85,17 @@ class EdgelMap
     return threshold_;
   }
 
-  /** Edgels looked at so far, a tile computed counting as a hundred: the measure of the work done. */
+  /** Edgels looked at so far, a tile's first visit counting as a hundred: the measure of the work done, whoever else
+   * has visited the tile before. */
   std::size_t looks() const
   {
     return looks_;
+  }
+
+  /** Counts the looks of a copy. */
+  void addLooks(std::size_t looks)
+  {
+    looks_ += looks;
   }
 
   bool isSpent() const
@@ -140,19 +153,30 @@ class EdgelMap
  private:
   struct Tile
   {
-    bool computed = false;
+    std::atomic<bool> is_computed{false};
     EdgelTile edgels;
+  };
+
+  /** What copies share. */
+  struct Tiles
+  {
+    Tiles(const cv::Mat& image, const cv::Size& size);
+
+    cv::Mat bgr;
+    cv::Size grid;
+    std::vector<Tile> tiles;
+    std::array<std::mutex, 16> locks;  // a tile has one of them while it is computed
   };
 
   cv::Rect tilesOf(double left, double top, double right, double bottom) const;
   const EdgelTile& tile(int col, int row);
+  void compute(int col, int row, EdgelTile& edgels) const;
 
-  cv::Mat bgr_;
+  std::shared_ptr<Tiles> shared_;
+  std::vector<char> visited_;  // per tile
   float threshold_ = 0;
   std::size_t looks_ = 0;
   std::size_t max_looks_ = 0;
-  cv::Size grid_;
-  std::vector<Tile> tiles_;
 };
 
 }  // namespace omr
