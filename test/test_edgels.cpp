@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <thread>
 
 #include "render_target.h"
 
@@ -82,6 +84,41 @@ TEST(Edgels, thresholdFollowsTheNoise)
   cv::RNG random(5);
   random.fill(noisy, cv::RNG::NORMAL, 100, 20);
   EXPECT_LT(EdgelMap(clean).threshold(), EdgelMap(noisy).threshold());
+}
+
+TEST(Edgels, copiesCountTheirLooksApartWhoeverComputesTheTiles)
+{
+  TargetScene scene;
+  scene.noise = 6;
+  const cv::Mat image = renderTarget(scene);
+  const auto looks_alone = [&] {
+    EdgelMap map(image);
+    map.visit(0, 0, 479, 359, [](const Edgel&) {});
+    return map.looks();
+  }();
+  const EdgelMap map(image);
+  std::array<std::size_t, 4> looks{};
+  std::array<int, 4> counts{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < looks.size(); ++i)
+  {
+    threads.emplace_back([&, i] {
+      EdgelMap copy = map;
+      copy.visit(0, 0, 479, 359, [&](const Edgel&) { ++counts[i]; });
+      looks[i] = copy.looks();
+    });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(0U, map.looks());
+  EXPECT_GT(looks_alone, 5000U);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+  {
+    EXPECT_EQ(looks_alone, looks[i]);
+    EXPECT_EQ(counts[0], counts[i]);
+  }
 }
 
 TEST(Edgels, tinyImages)

@@ -69,6 +69,45 @@ TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)
   EXPECT_NEAR(0, cv::norm(candidates[0].rings.family.center - projectedCenter(scene) - cv::Point2d(600, 400)), .2);
 }
 
+TEST(RingSearch, seedsGrownAheadGiveTheSame)
+{
+  TargetScene scene;
+  const cv::Mat target = renderTarget(scene);
+  cv::Mat image(500, 1100, CV_8UC3, cv::Scalar::all(90));
+  target.copyTo(image(cv::Rect(cv::Point(50, 60), target.size())));
+  target.copyTo(image(cv::Rect(cv::Point(600, 100), target.size())));
+  const omr::RegionMap regions = regionsOf(image);
+  omr::RoundSeeds seeds = omr::toRoundSeeds(regions);
+  omr::EdgelMap map(image);
+  omr::growConcentric(map, image, 3, seeds);
+  const auto is_grown = [](const omr::GrownSeed& grown) { return grown.is_target; };
+  EXPECT_EQ(2, std::count_if(seeds.grown.begin(), seeds.grown.end(), is_grown)) << "one a target";
+  const auto ahead = omr::findRingCandidates(map, image, regions, std::move(seeds), {}, 3);
+  omr::EdgelMap other_map(image);
+  const auto alone = omr::findRingCandidates(other_map, image, regions, {}, 3);
+  EXPECT_EQ(other_map.looks(), map.looks());
+  ASSERT_EQ(2U, alone.size());
+  ASSERT_EQ(2U, ahead.size());
+  for (std::size_t i = 0; i < alone.size(); ++i)
+  {
+    EXPECT_EQ(alone[i].rings.family.center, ahead[i].rings.family.center);
+    EXPECT_EQ(alone[i].rings.radii, ahead[i].rings.radii);
+  }
+}
+
+TEST(RingSearch, seedsGrownAheadOnABoardAreNoTargets)
+{
+  TargetScene scene;
+  const cv::Mat image = renderTarget(scene);
+  const omr::RegionMap regions = regionsOf(image);
+  omr::RoundSeeds seeds = omr::toRoundSeeds(regions);
+  omr::EdgelMap map(image);
+  omr::growConcentric(map, image, 3, seeds);
+  omr::Checkerboard board;
+  board.corners = {cv::Point2f(0, 0), cv::Point2f(480, 0), cv::Point2f(480, 360), cv::Point2f(0, 360)};
+  EXPECT_TRUE(omr::findRingCandidates(map, image, regions, std::move(seeds), {board}, 3).empty());
+}
+
 TEST(RingSearch, anEmptyPictureTakesNoLooks)
 {
   const cv::Mat image(300, 400, CV_8UC3, cv::Scalar::all(90));

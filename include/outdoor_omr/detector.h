@@ -22,7 +22,8 @@ struct Markers
   std::vector<StepTime> times;  ///< in the order of the steps
 };
 
-/** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. One thread a detector. */
+/** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. Not thread-safe;
+ * targets are searched in a second thread while boards are. */
 class Detector
 {
  public:

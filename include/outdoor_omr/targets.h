@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_TARGETS_H
 #define OUTDOOR_OMR_TARGETS_H
 
+#include <memory>
 #include <vector>
 
 #include "outdoor_omr/checkerboard.h"
@@ -21,6 +22,27 @@ namespace omr
  */
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
                                 const Settings& settings);
+
+/** The same in two parts, of which the first may run beside the search for checkerboards, in a thread of its own. */
+class TargetSearch
+{
+ public:
+  /** The parameters must outlive this. */
+  TargetSearch(const Frame& frame, const RegionMap& regions, const Settings& settings);
+  ~TargetSearch();
+  TargetSearch(const TargetSearch&) = delete;
+  TargetSearch& operator=(const TargetSearch&) = delete;
+
+  /** Grows the seeds that promise most. finish() gives the same with and without it. */
+  void lookAhead();
+
+  /** What findTargets() gives. */
+  std::vector<Target> finish(const std::vector<Checkerboard>& boards);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace omr
 

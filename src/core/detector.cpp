@@ -1,6 +1,7 @@
 #include "outdoor_omr/detector.h"
 
 #include <chrono>
+#include <future>
 
 #include "outdoor_omr/checkerboards.h"
 #include "outdoor_omr/frame.h"
@@ -46,6 +47,12 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   StopWatch watch(markers.times);
   const Frame frame = makeFrame(bgr);
   watch.step("pyramid");
+  TargetSearch targets(frame, regions_, settings);
+  std::future<void> ahead;
+  if (settings.detect_checkerboards && settings.detect_targets)
+  {
+    ahead = std::async([&targets] { targets.lookAhead(); });
+  }
   if (settings.detect_checkerboards)
   {
     markers.checkerboards = findCheckerboards(frame, regions_, settings);
@@ -53,7 +60,11 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   }
   if (settings.detect_targets)
   {
-    markers.targets = findTargets(frame, regions_, markers.checkerboards, settings);
+    if (ahead.valid())
+    {
+      ahead.get();
+    }
+    markers.targets = targets.finish(markers.checkerboards);
     watch.step("targets");
   }
   return markers;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "arc_seeds.h"
-#include "ring_seeds.h"
 
 namespace omr
 {
@@ -72,6 +71,30 @@ std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates
   }
   return best;
 }
+/** Whether a candidate that no other seed will better contains the point. */
+bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Point2d& point)
+{
+  return std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
+    return isUndisputed(candidate) && contains(candidate, point);
+  });
+}
+
+/** Grows a seed with looks of its own, so that the result is the same in any order and thread. */
+GrownSeed growSeed(EdgelMap map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings)
+{
+  GrownSeed grown;
+  const std::size_t before = map.looks();
+  grown.is_grown = true;
+  grown.is_target = (!is_boundary || hasOwnBoundary(map, bgr, seed)) &&
+                    growCandidate(map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
+  grown.looks = map.looks() - before;
+  return grown;
+}
+
+void allow(EdgelMap& map, const cv::Mat& bgr, double share)
+{
+  map.setMaxLooks(static_cast<std::size_t>(share * static_cast<double>(allowedLooks(bgr.size()))));
+}
 }  // namespace
 
 std::size_t allowedLooks(const cv::Size& image_size)
@@ -79,40 +102,68 @@ std::size_t allowedLooks(const cv::Size& image_size)
   return static_cast<std::size_t>(std::max(MIN_LOOKS, LOOKS_PER_PIXEL * image_size.area()));
 }
 
+RoundSeeds toRoundSeeds(const RegionMap& regions)
+{
+  RoundSeeds seeds;
+  seeds.seeds = findRoundSeeds(regions.regions);
+  seeds.grown.resize(seeds.seeds.size());
+  return seeds;
+}
+
+void growConcentric(const EdgelMap& source, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
+{
+  EdgelMap map = source;
+  allow(map, bgr, CONCENTRIC_SHARE);
+  std::vector<RingCandidate> candidates;
+  for (std::size_t i = 0; i < seeds.seeds.size() && !map.isSpent(); ++i)
+  {
+    const RingSeed& seed = seeds.seeds[i];
+    if (seed.companions > 0 && !isInUndisputed(candidates, seed.family.center))
+    {
+      seeds.grown[i] = growSeed(map, bgr, seed, true, min_rings);
+      map.addLooks(seeds.grown[i].looks);
+      if (seeds.grown[i].is_target)
+      {
+        candidates.push_back(seeds.grown[i].candidate);
+      }
+    }
+  }
+}
+
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               const std::vector<Checkerboard>& boards, int min_rings)
 {
+  return findRingCandidates(map, bgr, regions, toRoundSeeds(regions), boards, min_rings);
+}
+
+std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
+                                              RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
+{
   std::vector<RingCandidate> candidates;
   const auto is_taken = [&](const cv::Point2d& point) {
-    return isOnBoard(point, boards) ||
-           std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
-             return isUndisputed(candidate) && contains(candidate, point);
-           });
+    return isOnBoard(point, boards) || isInUndisputed(candidates, point);
   };
-  const auto try_seed = [&](const RingSeed& seed, bool is_boundary) {
-    RingCandidate candidate;
-    if (growCandidate(map, bgr, seed, is_boundary, candidate) && isTarget(candidate, min_rings))
+  const auto add = [&](GrownSeed grown) {
+    map.addLooks(grown.looks);
+    if (grown.is_target)
     {
-      candidates.push_back(std::move(candidate));
+      candidates.push_back(std::move(grown.candidate));
     }
   };
-  const auto allow = [&](double share) {
-    map.setMaxLooks(static_cast<std::size_t>(share * static_cast<double>(allowedLooks(bgr.size()))));
-  };
-  const std::vector<RingSeed> round_seeds = findRoundSeeds(regions.regions);
   const auto try_round = [&](bool with_companions) {
-    for (const RingSeed& seed : round_seeds)
+    for (std::size_t i = 0; i < seeds.seeds.size(); ++i)
     {
-      if ((seed.companions > 0) == with_companions && !map.isSpent() && !is_taken(seed.family.center) &&
-          hasOwnBoundary(map, bgr, seed))
+      const RingSeed& seed = seeds.seeds[i];
+      if ((seed.companions > 0) == with_companions && !map.isSpent() && !is_taken(seed.family.center))
       {
-        try_seed(seed, true);
+        GrownSeed& grown = seeds.grown[i];
+        add(grown.is_grown ? std::move(grown) : growSeed(map, bgr, seed, true, min_rings));
       }
     }
   };
-  allow(CONCENTRIC_SHARE);
+  allow(map, bgr, CONCENTRIC_SHARE);
   try_round(true);
-  allow(PIECES_SHARE);
+  allow(map, bgr, PIECES_SHARE);
   std::vector<ArcSeed> arcs;
   int pieces = 0;
   for (const Region* piece : findPieces(regions.regions))
@@ -134,14 +185,14 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
     {
       if ((arc.votes > MANY_VOTES) == with_many_votes && !map.isSpent() && !is_taken(arc.seed.family.center))
       {
-        try_seed(arc.seed, false);
+        add(growSeed(map, bgr, arc.seed, false, min_rings));
       }
     }
   };
   try_arcs(true);
-  allow(SINGLE_SHARE);
+  allow(map, bgr, SINGLE_SHARE);
   try_round(false);
-  allow(1);
+  allow(map, bgr, 1);
   try_arcs(false);
   return bestOfEachPlace(std::move(candidates));
 }

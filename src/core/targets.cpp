@@ -1,6 +1,7 @@
 #include "outdoor_omr/targets.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "color_key.h"
@@ -74,24 +75,69 @@ bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 }
 }  // namespace
 
-std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
-                                const Settings& settings)
+struct TargetSearch::State
 {
-  if (frame.bgr.empty())
+  State(const Frame& source, const RegionMap& source_regions, const Settings& settings)
+      : frame(source), regions(source_regions), min_rings(settings.target_min_rings)
   {
-    return {};
   }
-  EdgelMap map(frame.bgr);
+
+  /** Whether there is anything to search; makes what the search needs. */
+  bool prepare()
+  {
+    if (!map && !frame.bgr.empty())
+    {
+      map = std::make_unique<EdgelMap>(frame.bgr);
+      seeds = toRoundSeeds(regions);
+    }
+    return map != nullptr;
+  }
+
+  const Frame& frame;
+  const RegionMap& regions;
+  int min_rings;
+  std::unique_ptr<EdgelMap> map;
+  RoundSeeds seeds;
+};
+
+TargetSearch::TargetSearch(const Frame& frame, const RegionMap& regions, const Settings& settings)
+    : state_(std::make_unique<State>(frame, regions, settings))
+{
+}
+
+TargetSearch::~TargetSearch() = default;
+
+void TargetSearch::lookAhead()
+{
+  if (state_->prepare())
+  {
+    growConcentric(*state_->map, state_->frame.bgr, state_->min_rings, state_->seeds);
+  }
+}
+
+std::vector<Target> TargetSearch::finish(const std::vector<Checkerboard>& boards)
+{
   std::vector<Target> targets;
-  for (RingCandidate& candidate : findRingCandidates(map, frame.bgr, regions, boards, settings.target_min_rings))
+  if (!state_->prepare())
+  {
+    return targets;
+  }
+  for (RingCandidate& candidate : findRingCandidates(*state_->map, state_->frame.bgr, state_->regions,
+                                                     std::move(state_->seeds), boards, state_->min_rings))
   {
     Target target;
-    if (toTarget(std::move(candidate), settings.target_min_rings, target))
+    if (toTarget(std::move(candidate), state_->min_rings, target))
     {
       targets.push_back(std::move(target));
     }
   }
   return targets;
+}
+
+std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
+                                const Settings& settings)
+{
+  return TargetSearch(frame, regions, settings).finish(boards);
 }
 
 }  // namespace omr
