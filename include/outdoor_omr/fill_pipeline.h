@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "outdoor_omr/marker_network.h"
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
 #include "outdoor_omr/step_time.h"
@@ -33,8 +34,10 @@ class FillPipeline
   /** What run() shall bring back beside the region data; each costs a transfer. */
   struct Outputs
   {
-    bool edges = false;   ///< RegionMap::edges
-    bool labels = false;  ///< RegionMap::labels
+    bool edges = false;                      ///< RegionMap::edges
+    bool labels = false;                     ///< RegionMap::labels
+    const MarkerNetwork* network = nullptr;  ///< if not null, the preliminary detection runs too (section 4.5)
+    std::vector<MarkerScores>* window_scores = nullptr;  ///< if network is not null, receives windowScores()
   };
 
   /**
@@ -59,7 +62,8 @@ class FillPipeline
    * @param settings the tunables of group "fill".
    * @param outputs  what to bring back.
    * @param map      receives the result; its memory is reused.
-   * @param times    if not null, filter, edges, labels and region data are appended [ms]; they add up to the whole run.
+   * @param times    if not null, filter, edges, labels and region data are appended [ms], before them candidates if a
+   *                 network is given; they add up to the whole run.
    * @throws std::invalid_argument if bgr is empty, too large or of another type, or a tunable is out of bounds;
    *         DeviceError if the device fails or lacks the memory.
    */

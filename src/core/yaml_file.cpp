@@ -13,11 +13,12 @@ YamlFile::YamlFile(std::string file, std::string key, const YAML::Node& node, in
 {
 }
 
-YamlFile YamlFile::load(const std::string& file)
+template <typename Read>
+YamlFile YamlFile::read(const std::string& file, const Read& read)
 {
   try
   {
-    return {file, "", YAML::LoadFile(file), 1};
+    return {file, "", read(), 1};
   }
   catch (const YAML::BadFile&)
   {
@@ -27,6 +28,16 @@ YamlFile YamlFile::load(const std::string& file)
   {
     throw std::invalid_argument(file + ":" + std::to_string(error.mark.line + 1) + ": not valid yaml: " + error.msg);
   }
+}
+
+YamlFile YamlFile::load(const std::string& file)
+{
+  return read(file, [&] { return YAML::LoadFile(file); });
+}
+
+YamlFile YamlFile::parse(const std::string& text, const std::string& name)
+{
+  return read(name, [&] { return YAML::Load(text); });
 }
 
 void YamlFile::fail(const std::string& message) const

@@ -17,6 +17,9 @@ class YamlFile
   /** The root. @throws std::runtime_error if the file cannot be read. */
   static YamlFile load(const std::string& file);
 
+  /** The root of a text. @param name that errors give the file. */
+  static YamlFile parse(const std::string& text, const std::string& name);
+
   /** Throws with file, line and key: "FILE:LINE: KEY: MESSAGE". */
   [[noreturn]] void fail(const std::string& message) const;
 
@@ -41,6 +44,8 @@ class YamlFile
   std::vector<double> numbers(const std::string& expected, std::size_t size = 0) const;
 
  private:
+  template <typename Read>
+  static YamlFile read(const std::string& file, const Read& read);
   YamlFile(std::string file, std::string key, const YAML::Node& node, int line);
 
   std::string file_;

@@ -35,7 +35,7 @@ void DeviceFill::loadImage(const cv::Mat& bgr)
 {
   bgr_ = bgr;
   size_ = bgr.size();
-  loaded_ = filtered_ = edges_found_ = labelled_ = cl::Event();
+  loaded_ = scored_ = filtered_ = edges_found_ = labelled_ = cl::Event();
   buffers_.reserve(context_, size_, stripsOfDevice());
   const std::size_t row_bytes = static_cast<std::size_t>(size_.width) * 3;
   if (shares_memory_)
@@ -147,7 +147,8 @@ void DeviceFill::readLabels(cv::Mat& labels)
 
 std::size_t DeviceFill::bytes() const
 {
-  return buffers_.bytes() + upload_.bytes() + edge_image_.bytes() + label_image_.bytes() + sweep_labels_.bytes();
+  return buffers_.bytes() + windows_.bytes() + upload_.bytes() + edge_image_.bytes() + label_image_.bytes() +
+         sweep_labels_.bytes();
 }
 
 void DeviceFill::finish()
@@ -175,6 +176,7 @@ DeviceFill::Times DeviceFill::times() const
     before = end;
     return milliseconds;
   };
+  times.candidates = until(scored_);
   times.filter = until(filtered_);
   times.edges = until(edges_found_);
   times.labels = until(labelled_);
@@ -189,11 +191,13 @@ void DeviceFill::warmUp()
   cv::Mat edges;
   cv::Mat labels;
   std::vector<RegionSums> sums;
+  std::vector<MarkerScores> scores;
   for (const Filter kind : {Filter::gaussian, Filter::median})
   {
     for (const int size : {3, 5})
     {
       loadImage(image);
+      scoreWindows(defaultMarkerNetwork(), scores);
       filter(kind, size);
       findEdges({200, size == 3 ? 200 : 100});
       readEdges(edges);
@@ -204,6 +208,7 @@ void DeviceFill::warmUp()
       finish();
     }
   }
+  releaseWindows();
 }
 
 }  // namespace omr

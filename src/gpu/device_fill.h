@@ -7,10 +7,12 @@
 
 #include "device.h"
 #include "fill_buffers.h"
+#include "outdoor_omr/marker_network.h"
 #include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
 #include "program.h"
+#include "window_buffers.h"
 
 namespace omr
 {
@@ -43,6 +45,19 @@ class DeviceFill
 
   /** Hands an image (CV_8UC3, not empty) to the device, which reads it until finish(). */
   void loadImage(const cv::Mat& bgr);
+
+  /**
+   * Preliminary detection in the loaded image (device_windows.cpp), before it is filtered.
+   *
+   * @param scores of all windows by the time of finish(), as windowScores() gives them.
+   */
+  void scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores);
+
+  /** The integral image of the loaded image, as cv::integral() gives it; waits. */
+  void readIntegral(cv::Mat& integral);
+
+  /** Frees what scoreWindows() needs. */
+  void releaseWindows();
 
   void filter(Filter filter, int size);
   void findEdges(const EdgeThreshold& threshold);
@@ -84,6 +99,7 @@ class DeviceFill
   /** Device time of the steps since loadImage(), each with what precedes it [ms]; 0 for a step that did not run. */
   struct Times
   {
+    double candidates = 0;
     double filter = 0;
     double edges = 0;
     double labels = 0;
@@ -96,6 +112,7 @@ class DeviceFill
   template <typename Write>
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
   void warmUp();
+  void findIntegral();
   void findRuns(const Strips& strips);
   bool sweep(int rounds);
   void mergeSeams();
@@ -114,6 +131,7 @@ class DeviceFill
   bool shares_memory_;  ///< a CPU device works on the host's memory in place
   int compute_units_;
   FillBuffers buffers_;
+  WindowBuffers windows_;
   GrowingBuffer upload_, edge_image_, label_image_, sweep_labels_;
   cv::Mat bgr_;       ///< holds the pixels until finish()
   cl::Buffer image_;  ///< what the next step reads: the loaded or the filtered image
@@ -122,7 +140,7 @@ class DeviceFill
   Strips strips_;
   AreaWindow window_;
   cl_uint expected_reports_ = 64;
-  cl::Event last_event_, loaded_, filtered_, edges_found_, labelled_;
+  cl::Event last_event_, loaded_, scored_, filtered_, edges_found_, labelled_;
 };
 
 template <typename... Arguments>

@@ -7,6 +7,7 @@
 
 #include "device_fill.h"
 #include "outdoor_omr/reference_fill.h"
+#include "outdoor_omr/window_scores.h"
 
 namespace omr
 {
@@ -111,7 +112,11 @@ class FillPipeline::Implementation
     }
     if (times)
     {
-      const double rest = millisecondsSince(start) - steps.filter - steps.edges - steps.labels;
+      const double rest = millisecondsSince(start) - steps.candidates - steps.filter - steps.edges - steps.labels;
+      if (outputs.network)
+      {
+        times->push_back({"candidates", steps.candidates});
+      }
       times->push_back({"filter", steps.filter});
       times->push_back({"edges", steps.edges});
       times->push_back({"labels", steps.labels});
@@ -141,6 +146,14 @@ class FillPipeline::Implementation
     try
     {
       fill_->loadImage(bgr);
+      if (outputs.network)
+      {
+        fill_->scoreWindows(*outputs.network, *outputs.window_scores);
+      }
+      else
+      {
+        fill_->releaseWindows();
+      }
       fill_->filter(settings.filter, settings.filter_size);
       fill_->findEdges(edgeThreshold(settings));
       fill_->labelRegions(settings.fill_method, settings.sweep_rounds);
@@ -184,6 +197,11 @@ class FillPipeline::Implementation
       start = Clock::now();
       return milliseconds;
     };
+    if (outputs.network)
+    {
+      *outputs.window_scores = windowScores(bgr, *outputs.network);
+      times.candidates = lap();
+    }
     const cv::Mat filtered = filterImage(bgr, settings.filter, settings.filter_size);
     times.filter = lap();
     const cv::Mat edges = edgeMask(filtered, edgeThreshold(settings));

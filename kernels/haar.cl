@@ -1,0 +1,402 @@
+// Colour Haar features of sliding windows and the network that scores them (paper, section 4.5). What the features are,
+// and a plain version of all of this: include/outdoor_omr/haar_features.h, marker_network.h.
+
+#include "geometry.cl"
+
+/** The sizes of haar_features.h. */
+#define WINDOW_CELLS 8
+#define WINDOW_STRIDE 2
+#define SHIFTS 40
+#define BANDS 5
+#define LEAST_CONTRAST 20
+#define OCTAVE 256.0f
+#define FIRST_CENTER 5
+#define LAST_CENTER 9
+#define BEST 3
+
+/** Features, a one for the bias, and zeros up to a multiple of 8. */
+#define INPUTS 152
+#define FEATURES 148
+#define MAX_HIDDEN 256
+
+/** Rows of a window in private memory, with room for what a shifted load reads beside them. */
+#define ROW_STEP 16
+#define ROW_START 4
+
+/** 8 cells at any address in one load. */
+typedef struct __attribute__((packed))
+{
+  short8 cells;
+} Shorts8;
+
+INLINE int8 magnitude(int8 value)
+{
+  return value > -value ? value : -value;
+}
+
+INLINE int4 magnitude4(int4 value)
+{
+  return value > -value ? value : -value;
+}
+
+INLINE int total(int8 v)
+{
+  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
+}
+
+/** Four times the mean of a cell's pixels in a channel. */
+INLINE uint cellMean(global const uint* top, global const uint* bottom, int left, int right, int shift)
+{
+  return (bottom[right] - bottom[left] - top[right] + top[left]) >> shift;
+}
+
+/**
+ * The brightness of the cells of a level, one group a row of cells.
+ *
+ * @param integral  as integral.cl gives it, of an image of the width.
+ * @param logarithm of a cell's mean.
+ * @param cells     three planes of cells_down rows of cells_across: b + g + r, r - g, b - g.
+ */
+kernel GROUP void haarCells(global const uint* restrict integral, int width, int level,
+                            global const short* restrict logarithm, int cells_across, int cells_down,
+                            global short* restrict cells)
+{
+  const int y = get_group_id(0);
+  const int side = 2 << level;
+  global const uint* restrict top = integral + (size_t)y * side * (3 * width + 3);
+  global const uint* restrict bottom = top + (size_t)side * (3 * width + 3);
+  global short* restrict row = cells + (size_t)y * cells_across;
+  const size_t plane = (size_t)cells_down * cells_across;
+  for (int x = get_local_id(0); x < cells_across; x += LANES)
+  {
+    const int left = 3 * side * x;
+    const int right = left + 3 * side;
+    const short blue = logarithm[cellMean(top, bottom, left, right, 2 * level)];
+    const short green = logarithm[cellMean(top, bottom, left + 1, right + 1, 2 * level)];
+    const short red = logarithm[cellMean(top, bottom, left + 2, right + 2, 2 * level)];
+    row[x] = blue + green + red;
+    row[plane + x] = red - green;
+    row[2 * plane + x] = blue - green;
+  }
+}
+
+/** Haar responses of a row of four blocks. */
+typedef struct
+{
+  int4 sum, across, down;
+} Blocks;
+
+INLINE Blocks blocksOf(int8 upper, int8 lower)
+{
+  const int8 both = upper + lower;
+  const int8 down = magnitude(upper - lower);
+  const Blocks blocks = {both.even + both.odd, magnitude4(upper.even - upper.odd) + magnitude4(lower.even - lower.odd),
+                         down.even + down.odd};
+  return blocks;
+}
+
+INLINE int8 rowOf(global const short* cells, int cells_across, int y)
+{
+  return convert_int8(((global const Shorts8*)(cells + (size_t)y * cells_across))->cells);
+}
+
+/** The lanes of a row that have a partner so many cells to the right (negative: to the left). */
+INLINE int8 partners(int shift)
+{
+  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7) + shift;
+  return lane >= 0 && lane < WINDOW_CELLS;
+}
+
+/** Mean difference from the cells (dx, dy) further. @param rows of the window: ROW_STEP apart, from ROW_START. */
+INLINE float meanDifference(const int* rows, int dx, int dy)
+{
+  int8 sum = 0;
+  for (int y = max(0, -dy); y < WINDOW_CELLS - max(0, dy); ++y)
+  {
+    const int* at = rows + y * ROW_STEP + ROW_START;
+    sum += magnitude(vload8(0, at + dy * ROW_STEP + dx) - vload8(0, at));
+  }
+  return (float)total(sum & partners(dx)) / (float)((WINDOW_CELLS - dx) * (WINDOW_CELLS - (int)abs(dy)));
+}
+
+INLINE void keepSmallest(float* smallest, float value)
+{
+  for (int i = 0; i < BEST; ++i)
+  {
+    const float kept = smallest[i];
+    smallest[i] = min(kept, value);
+    value = max(kept, value);
+  }
+}
+
+/** The smallest differences from the window turned by 180 degrees, and from the negative of it. */
+INLINE void symmetries(const int* rows, int mean, float* same, float* negative)
+{
+  int turned[WINDOW_CELLS * ROW_STEP];
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    for (int x = 0; x < ROW_STEP; ++x)
+    {
+      turned[y * ROW_STEP + x] = 0;
+    }
+    vstore8(vload8(0, rows + y * ROW_STEP + ROW_START).s76543210, 0, turned + y * ROW_STEP + ROW_START);
+  }
+  for (int i = 0; i < BEST; ++i)
+  {
+    same[i] = negative[i] = 1e9f;
+  }
+  for (int cy = FIRST_CENTER; cy <= LAST_CENTER; ++cy)
+  {
+    const int first = max(0, cy - 7);
+    const int last = min(7, cy);
+    for (int cx = FIRST_CENTER; cx <= LAST_CENTER; ++cx)
+    {
+      int8 difference = 0;
+      int8 sum = 0;
+      for (int y = first; y <= last; ++y)
+      {
+        const int8 here = vload8(0, rows + y * ROW_STEP + ROW_START);
+        const int8 there = vload8(0, turned + (cy - y) * ROW_STEP + ROW_START + 7 - cx);
+        difference += magnitude(here - there);
+        sum += magnitude(here + there - 2 * mean);
+      }
+      const int8 inside = partners(7 - cx);
+      const float count = (float)((last - first + 1) * (WINDOW_CELLS - (int)abs(7 - cx)));
+      keepSmallest(same, (float)total(difference & inside) / count);
+      keepSmallest(negative, (float)total(sum & inside) / count);
+    }
+  }
+}
+
+INLINE void sortAscending(float* values, int count)
+{
+  for (int i = 1; i < count; ++i)
+  {
+    const float value = values[i];
+    int j = i;
+    for (; j > 0 && values[j - 1] > value; --j)
+    {
+      values[j] = values[j - 1];
+    }
+    values[j] = value;
+  }
+}
+
+/** Mean deviation of one colour difference from its mean. */
+INLINE float meanDeviation(const int8* rows)
+{
+  int8 sum = 0;
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    sum += rows[y];
+  }
+  const int mean = total(sum) / (WINDOW_CELLS * WINDOW_CELLS);
+  sum = 0;
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    sum += magnitude(rows[y] - mean);
+  }
+  return (float)total(sum) / (WINDOW_CELLS * WINDOW_CELLS);
+}
+
+/** What is looked up, in one buffer: shifts by length, firsts of the bands, then crossings of four shifts. */
+#define BY_LENGTH 0
+#define FIRST_OF_BAND 40
+#define CROSSINGS 48
+
+INLINE float largestCrossing(const float* differences, global const uchar* tables, int crossings)
+{
+  float along = 0;
+  float diagonal = 1;
+  for (int i = 0; i < crossings; ++i)
+  {
+    global const uchar* shifts = tables + CROSSINGS + 4 * i;
+    const float a = differences[shifts[0]] + differences[shifts[1]];
+    const float d = differences[shifts[2]] + differences[shifts[3]];
+    const bool larger = a * diagonal > along * d;
+    along = larger ? a : along;
+    diagonal = larger ? d : diagonal;
+  }
+  return (along - diagonal) / (along + diagonal);
+}
+
+/**
+ * The features of a window. @return whether it has contrast; if not, features is not written.
+ *
+ * @param window its first cell. @param plane cells of a plane.
+ */
+INLINE bool haarFeatures(global const short* window, int cells_across, size_t plane, global const uchar* tables,
+                         int crossings, float* features)
+{
+  int8 light[WINDOW_CELLS];
+  Blocks light_blocks[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    light[2 * i] = rowOf(window, cells_across, 2 * i);
+    light[2 * i + 1] = rowOf(window, cells_across, 2 * i + 1);
+    light_blocks[i] = blocksOf(light[2 * i], light[2 * i + 1]);
+  }
+  const int4 upper = light_blocks[0].across + light_blocks[0].down + light_blocks[1].across + light_blocks[1].down;
+  const int4 lower = light_blocks[2].across + light_blocks[2].down + light_blocks[3].across + light_blocks[3].down;
+  if (min(min(upper.x + upper.y, upper.z + upper.w), min(lower.x + lower.y, lower.z + lower.w)) < LEAST_CONTRAST * 16)
+  {
+    return false;
+  }
+  int rows[WINDOW_CELLS * ROW_STEP];
+  int8 sum = 0;
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    for (int x = 0; x < ROW_STEP; ++x)
+    {
+      rows[y * ROW_STEP + x] = 0;
+    }
+    vstore8(light[y], 0, rows + y * ROW_STEP + ROW_START);
+    sum += light[y];
+  }
+  const int mean = total(sum) / (WINDOW_CELLS * WINDOW_CELLS);
+
+  float differences[SHIFTS];
+  float contrast = 0;
+  int shift = 0;
+  for (int dx = 0; dx <= 4; ++dx)
+  {
+    for (int dy = dx == 0 ? 1 : -4; dy <= 4; ++dy)
+    {
+      differences[shift] = meanDifference(rows, dx, dy);
+      contrast += differences[shift++];
+    }
+  }
+  contrast /= SHIFTS;
+  for (int i = 0; i < SHIFTS; ++i)
+  {
+    features[i] = differences[tables[BY_LENGTH + i]] / contrast - 1;
+  }
+  for (int band = 0; band < BANDS; ++band)
+  {
+    const int first = tables[FIRST_OF_BAND + band];
+    sortAscending(features + first, tables[FIRST_OF_BAND + band + 1] - first);
+  }
+  float* next = features + SHIFTS;
+  *next++ = largestCrossing(differences, tables, crossings);
+  *next++ = contrast / OCTAVE;
+
+  float8 deviation = 0;
+  float8 variance = 0;
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    const float8 relative = convert_float8(light[y] - mean) / contrast;
+    deviation += fabs(relative);
+    variance += relative * relative;
+  }
+  const float8 one = 1;
+  *next++ = (dot(deviation.lo, one.lo) + dot(deviation.hi, one.hi)) / (WINDOW_CELLS * WINDOW_CELLS);
+  *next++ = (dot(variance.lo, one.lo) + dot(variance.hi, one.hi)) / (WINDOW_CELLS * WINDOW_CELLS);
+  float same[BEST];
+  float negative[BEST];
+  symmetries(rows, mean, same, negative);
+  for (int i = 0; i < BEST; ++i)
+  {
+    *next++ = same[i] / contrast;
+    *next++ = negative[i] / contrast;
+  }
+  int8 red[WINDOW_CELLS];
+  int8 blue[WINDOW_CELLS];
+  for (int y = 0; y < WINDOW_CELLS; ++y)
+  {
+    red[y] = rowOf(window + plane, cells_across, y);
+    blue[y] = rowOf(window + 2 * plane, cells_across, y);
+  }
+  *next++ = meanDeviation(red) / contrast;
+  *next++ = meanDeviation(blue) / contrast;
+
+  for (int i = 0; i < 4; ++i)
+  {
+    const Blocks red_blocks = blocksOf(red[2 * i], red[2 * i + 1]);
+    const Blocks blue_blocks = blocksOf(blue[2 * i], blue[2 * i + 1]);
+    float values[6][4];
+    vstore4(convert_float4(light_blocks[i].sum - 4 * mean) / (4 * contrast), 0, values[0]);
+    vstore4(convert_float4(red_blocks.sum) / (4 * OCTAVE), 0, values[1]);
+    vstore4(convert_float4(blue_blocks.sum) / (4 * OCTAVE), 0, values[2]);
+    vstore4(convert_float4(light_blocks[i].across) / (2 * contrast) - 1, 0, values[3]);
+    vstore4(convert_float4(light_blocks[i].down) / (2 * contrast) - 1, 0, values[4]);
+    vstore4(convert_float4(red_blocks.across + red_blocks.down + blue_blocks.across + blue_blocks.down) /
+                (2 * contrast),
+            0, values[5]);
+    for (int k = 0; k < 24; ++k)
+    {
+      *next++ = values[k % 6][k / 6];
+    }
+  }
+  for (int i = FEATURES; i < INPUTS; ++i)
+  {
+    features[i] = i == FEATURES;
+  }
+  return true;
+}
+
+/** tanh(x / 2). */
+INLINE float8 activation(float8 x)
+{
+  return 1 - 2 / (1 + exp(x));
+}
+
+/** @param weights of each hidden unit: INPUTS, then of each output: one a hidden unit, and the bias; padded to 8. */
+INLINE float2 networkScores(const float* features, global const float* weights, int hidden)
+{
+  float units[MAX_HIDDEN + 8];
+  const int padded = (hidden + 1 + 7) / 8 * 8;
+  for (int unit = 0; unit < padded; ++unit)
+  {
+    units[unit] = 0;
+  }
+  for (int unit = 0; unit < hidden; ++unit)
+  {
+    global const float* row = weights + unit * INPUTS;
+    float8 sum = 0;
+    for (int i = 0; i < INPUTS / 8; ++i)
+    {
+      sum += vload8(i, row) * vload8(i, features);
+    }
+    const float4 half_sum = sum.lo + sum.hi;
+    units[unit] = half_sum.x + half_sum.y + half_sum.z + half_sum.w;
+  }
+  for (int i = 0; i < padded / 8; ++i)
+  {
+    vstore8(activation(vload8(i, units)), i, units);
+  }
+  units[hidden] = 1;
+  float8 checkerboard = 0;
+  float8 target = 0;
+  global const float* outputs = weights + hidden * INPUTS;
+  for (int i = 0; i < padded / 8; ++i)
+  {
+    checkerboard += vload8(i, outputs) * vload8(i, units);
+    target += vload8(i, outputs + padded) * vload8(i, units);
+  }
+  const float4 c = checkerboard.lo + checkerboard.hi;
+  const float4 t = target.lo + target.hi;
+  const float8 scores = activation((float8)(c.x + c.y + c.z + c.w, t.x + t.y + t.z + t.w, 0, 0, 0, 0, 0, 0));
+  return scores.s01;
+}
+
+/**
+ * The scores of the windows of a level, one group a row of windows: checkerboard and target, -1 to 1.
+ *
+ * @param first of the level in scores.
+ */
+kernel GROUP void scoreWindows(global const short* restrict cells, int cells_across, int cells_down,
+                               global const uchar* restrict tables, int crossings,
+                               global const float* restrict weights, int hidden, int windows_across, int first,
+                               global float2* restrict scores)
+{
+  const size_t plane = (size_t)cells_down * cells_across;
+  const int row = get_group_id(0);
+  global const short* start = cells + (size_t)row * WINDOW_STRIDE * cells_across;
+  for (int i = get_local_id(0); i < windows_across; i += LANES)
+  {
+    float features[INPUTS];
+    const bool contrast =
+        haarFeatures(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, features);
+    scores[first + row * windows_across + i] = contrast ? networkScores(features, weights, hidden) : (float2)(-1, -1);
+  }
+}

@@ -1,0 +1,88 @@
+#include "outdoor_omr/marker_network.h"
+
+#include <cmath>
+
+#include "default_marker_network.h"
+#include "outdoor_omr/haar_features.h"
+#include "yaml_file.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int MAX_HIDDEN = 256;
+
+/** Bias and weights of one unit. */
+float weightedSum(const float* weights, const float* inputs, int count)
+{
+  float sum = weights[0];
+  for (int i = 0; i < count; ++i)
+  {
+    sum += weights[i + 1] * inputs[i];
+  }
+  return sum;
+}
+
+void appendUnits(const YamlFile& layer, const std::string& expected, std::size_t units, std::size_t inputs,
+                 std::vector<float>& weights)
+{
+  for (const YamlFile& unit : layer.list(expected, units))
+  {
+    for (const double weight : unit.numbers("the bias and a weight for each input", inputs + 1))
+    {
+      weights.push_back(static_cast<float>(weight));
+    }
+  }
+}
+
+MarkerNetwork readMarkerNetwork(const YamlFile& file)
+{
+  file.allowOnly({"thresholds", "hidden_units", "output_units"}, "a map of thresholds, hidden_units and output_units");
+  MarkerNetwork network;
+  const YamlFile thresholds = file.get("thresholds", "the thresholds of the scores");
+  thresholds.allowOnly({"checkerboard", "target"}, "a map of checkerboard and target");
+  network.thresholds[0] = static_cast<float>(thresholds.get("checkerboard", "a score").number("a score", -1, 1));
+  network.thresholds[1] = static_cast<float>(thresholds.get("target", "a score").number("a score", -1, 1));
+  const YamlFile hidden = file.get("hidden_units", "a list of units");
+  network.hidden = static_cast<int>(hidden.list("a list of units").size());
+  if (network.hidden == 0 || network.hidden > MAX_HIDDEN)
+  {
+    hidden.fail("there are " + std::to_string(network.hidden) + " units, expected 1 to " + std::to_string(MAX_HIDDEN));
+  }
+  appendUnits(hidden, "a list of units", network.hidden, HAAR_FEATURES, network.weights);
+  appendUnits(file.get("output_units", "two units"), "two units", MARKER_KINDS, network.hidden, network.weights);
+  return network;
+}
+}  // namespace
+
+MarkerScores markerScores(const MarkerNetwork& network, const float* features)
+{
+  std::vector<float> hidden(network.hidden);
+  const float* weights = network.weights.data();
+  for (float& unit : hidden)
+  {
+    unit = std::tanh(.5F * weightedSum(weights, features, HAAR_FEATURES));
+    weights += HAAR_FEATURES + 1;
+  }
+  MarkerScores scores = {};
+  for (float& score : scores)
+  {
+    score = std::tanh(.5F * weightedSum(weights, hidden.data(), network.hidden));
+    weights += network.hidden + 1;
+  }
+  return scores;
+}
+
+MarkerNetwork loadMarkerNetwork(const std::string& file)
+{
+  return readMarkerNetwork(YamlFile::load(file));
+}
+
+const MarkerNetwork& defaultMarkerNetwork()
+{
+  static const MarkerNetwork NETWORK =
+      readMarkerNetwork(YamlFile::parse(DEFAULT_MARKER_NETWORK, "marker_network.yaml"));
+  return NETWORK;
+}
+
+}  // namespace omr

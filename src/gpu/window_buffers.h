@@ -1,0 +1,37 @@
+#ifndef OUTDOOR_OMR_GPU_WINDOW_BUFFERS_H
+#define OUTDOOR_OMR_GPU_WINDOW_BUFFERS_H
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "fill_buffers.h"
+#include "outdoor_omr/marker_network.h"
+
+namespace omr
+{
+/** What the kernels of the preliminary detection keep on the device; the layouts are those of kernels/haar.cl. */
+struct WindowBuffers
+{
+  GrowingBuffer column_sums;  ///< of each strip of rows
+  GrowingBuffer integral;     ///< (H + 1) x (W + 1) x 3
+  GrowingBuffer cells;        ///< three planes of the cells of a level
+  GrowingBuffer logarithm;
+  GrowingBuffer tables;
+  GrowingBuffer weights;
+  GrowingBuffer scores;
+
+  /** Makes room for an image of at least one pixel. @throws cl::Error if there is none. */
+  void reserve(const cl::Context& context, const cv::Size& size, int strips);
+
+  std::size_t bytes() const;
+};
+
+/** The lookup tables of haar.cl: 40 shifts by length, firsts of the bands, crossings. */
+std::vector<cl_uchar> packTables();
+
+/** A network's weights in the order of haar.cl. */
+std::vector<cl_float> packWeights(const MarkerNetwork& network);
+
+}  // namespace omr
+
+#endif

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "compare.h"
+#include "device_fill.h"
+#include "outdoor_omr/window_scores.h"
+#include "scene.h"
+
+using omr::DeviceFill;
+using omr::Geometry;
+using omr::MarkerScores;
+
+namespace
+{
+/** A network that depends on every feature: the default one may have learned to ignore some. */
+omr::MarkerNetwork anyNetwork(int hidden)
+{
+  omr::MarkerNetwork network;
+  network.hidden = hidden;
+  network.weights.resize(hidden * (omr::HAAR_FEATURES + 1) + omr::MARKER_KINDS * (hidden + 1));
+  cv::RNG random(3);
+  for (float& weight : network.weights)
+  {
+    weight = static_cast<float>(random.gaussian(.3));
+  }
+  return network;
+}
+
+/** Preliminary detection on the device against the plain one. */
+class DeviceWindowsTest : public testing::TestWithParam<Geometry>
+{
+ protected:
+  void SetUp() override
+  {
+    const std::vector<omr::Device> devices = omr::selectDevices("auto");
+    ASSERT_FALSE(devices.empty()) << "no OpenCL device: scripts/setup installs pocl-opencl-icd, which is one";
+    auto& fill = fills()[GetParam()];  // built once: the kernels take seconds to compile
+    if (!fill)
+    {
+      fill = std::make_unique<DeviceFill>(devices.front(), GetParam());
+    }
+    fill_ = fill.get();
+  }
+
+  static std::map<Geometry, std::unique_ptr<DeviceFill>>& fills()
+  {
+    static std::map<Geometry, std::unique_ptr<DeviceFill>> all;
+    return all;
+  }
+
+  std::vector<MarkerScores> scores(const cv::Mat& image, const omr::MarkerNetwork& network)
+  {
+    std::vector<MarkerScores> scores;
+    fill_->loadImage(image);
+    fill_->scoreWindows(network, scores);
+    fill_->finish();
+    return scores;
+  }
+
+  void expectSameScores(const cv::Mat& image, const omr::MarkerNetwork& network)
+  {
+    const std::vector<MarkerScores> expected = omr::windowScores(image, network);
+    const std::vector<MarkerScores> actual = scores(image, network);
+    ASSERT_EQ(expected.size(), actual.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+      ASSERT_NEAR(expected[i][0], actual[i][0], 1e-5) << "window " << i;
+      ASSERT_NEAR(expected[i][1], actual[i][1], 1e-5) << "window " << i;
+    }
+  }
+
+  DeviceFill* fill_ = nullptr;
+};
+}  // namespace
+
+TEST_P(DeviceWindowsTest, theIntegralImageIsThatOfOpenCv)
+{
+  for (const cv::Size& size : {cv::Size(1, 1), cv::Size(1, 97), cv::Size(97, 1), cv::Size(63, 64), cv::Size(64, 33),
+                               cv::Size(65, 17), cv::Size(131, 127), cv::Size(640, 480)})
+  {
+    cv::Mat expected;
+    cv::Mat actual;
+    const cv::Mat image = omr::test::noiseImage(size);
+    cv::integral(image, expected, CV_32S);
+    fill_->loadImage(image);
+    fill_->readIntegral(actual);
+    fill_->finish();
+    EXPECT_TRUE(omr::test::equal(expected, actual)) << size;
+  }
+}
+
+TEST_P(DeviceWindowsTest, theIntegralImageWrapsAsThatOfOpenCv)
+{
+  const cv::Mat image(4100, 4200, CV_8UC3, cv::Scalar(255, 254, 1));  // the sum of blue exceeds 2^32
+  cv::Mat expected;
+  cv::Mat actual;
+  cv::integral(image, expected, CV_32S);
+  fill_->loadImage(image);
+  fill_->readIntegral(actual);
+  fill_->finish();
+  EXPECT_TRUE(omr::test::equal(expected, actual));
+}
+
+TEST_P(DeviceWindowsTest, theScoresAreThoseOfPlainCpp)
+{
+  for (const int hidden : {1, 7, 8, 33})
+  {
+    expectSameScores(omr::drawScene({337, 251}), anyNetwork(hidden));
+  }
+  expectSameScores(omr::drawScene({640, 480}), omr::defaultMarkerNetwork());
+  expectSameScores(omr::test::noiseImage({301, 203}), omr::defaultMarkerNetwork());
+}
+
+TEST_P(DeviceWindowsTest, theRowStepMayBeAny)
+{
+  const cv::Mat large = omr::drawScene({400, 300});
+  expectSameScores(large(cv::Rect(13, 7, 301, 211)), omr::defaultMarkerNetwork());
+}
+
+TEST_P(DeviceWindowsTest, anImageSmallerThanAWindowHasNone)
+{
+  EXPECT_TRUE(scores(omr::test::noiseImage({15, 40}), omr::defaultMarkerNetwork()).empty());
+  EXPECT_EQ(1U, scores(omr::test::noiseImage({16, 16}), omr::defaultMarkerNetwork()).size());
+}
+
+TEST_P(DeviceWindowsTest, aPlainWindowHasNoScore)
+{
+  for (const MarkerScores& score : scores(cv::Mat(64, 64, CV_8UC3, cv::Scalar(90, 120, 80)), anyNetwork(8)))
+  {
+    EXPECT_EQ(-1, score[0]);
+    EXPECT_EQ(-1, score[1]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Geometries, DeviceWindowsTest, testing::Values(Geometry::strips, Geometry::words),
+                         [](const auto& info) { return info.param == Geometry::strips ? "strips" : "words"; });
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
