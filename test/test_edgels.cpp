@@ -86,7 +86,7 @@ TEST(Edgels, thresholdFollowsTheNoise)
   EXPECT_LT(EdgelMap(clean).threshold(), EdgelMap(noisy).threshold());
 }
 
-TEST(Edgels, copiesCountTheirLooksApartWhoeverComputesTheTiles)
+TEST(Edgels, forksCountTheirLooksApartWhoeverComputesTheTiles)
 {
   TargetScene scene;
   scene.noise = 6;
@@ -103,7 +103,7 @@ TEST(Edgels, copiesCountTheirLooksApartWhoeverComputesTheTiles)
   for (std::size_t i = 0; i < looks.size(); ++i)
   {
     threads.emplace_back([&, i] {
-      EdgelMap copy = map;
+      EdgelMap copy = map.fork();
       copy.visit(0, 0, 479, 359, [&](const Edgel&) { ++counts[i]; });
       looks[i] = copy.looks();
     });

@@ -80,7 +80,7 @@ TEST(RingSearch, seedsGrownAheadGiveTheSame)
   omr::RoundSeeds seeds = omr::toRoundSeeds(regions);
   omr::EdgelMap map(image);
   omr::growConcentric(map, image, 3, seeds);
-  const auto is_grown = [](const omr::GrownSeed& grown) { return grown.is_target; };
+  const auto is_grown = [](const auto& grown) { return grown && grown->is_target; };
   EXPECT_EQ(2, std::count_if(seeds.grown.begin(), seeds.grown.end(), is_grown)) << "one a target";
   const auto ahead = omr::findRingCandidates(map, image, regions, std::move(seeds), {}, 3);
   omr::EdgelMap other_map(image);
@@ -106,6 +106,33 @@ TEST(RingSearch, seedsGrownAheadOnABoardAreNoTargets)
   omr::Checkerboard board;
   board.corners = {cv::Point2f(0, 0), cv::Point2f(480, 0), cv::Point2f(480, 360), cv::Point2f(0, 360)};
   EXPECT_TRUE(omr::findRingCandidates(map, image, regions, std::move(seeds), {board}, 3).empty());
+}
+
+TEST(RingSearch, isTheSameForAnyNumberOfThreads)
+{
+  const cv::Mat target = renderTarget(TargetScene());
+  cv::Mat image = clutter({1600, 1200});
+  target.copyTo(image(cv::Rect(cv::Point(600, 400), target.size())));
+  target.copyTo(image(cv::Rect(cv::Point(100, 700), target.size())));
+  const omr::RegionMap regions = regionsOf(image);
+  const int threads = cv::getNumThreads();
+  std::vector<std::size_t> looks;
+  std::vector<cv::Point2d> centers;
+  for (const int count : {1, 4})
+  {
+    cv::setNumThreads(count);
+    omr::EdgelMap map(image);
+    for (const omr::RingCandidate& candidate : omr::findRingCandidates(map, image, regions, {}, 3))
+    {
+      centers.push_back(candidate.rings.family.center);
+    }
+    looks.push_back(map.looks());
+  }
+  cv::setNumThreads(threads);
+  ASSERT_EQ(4U, centers.size());
+  EXPECT_EQ(centers[0], centers[2]);
+  EXPECT_EQ(centers[1], centers[3]);
+  EXPECT_EQ(looks[0], looks[1]);
 }
 
 TEST(RingSearch, anEmptyPictureTakesNoLooks)

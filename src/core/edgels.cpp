@@ -171,6 +171,13 @@ EdgelMap::EdgelMap(const cv::Mat& bgr, std::size_t max_looks)
   threshold_ = std::clamp(NOISE_FACTOR * noise, LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
 }
 
+void EdgelMap::join(const EdgelMap& fork)
+{
+  looks_ += fork.looks_ - fork.looks_before_;
+  std::transform(visited_.begin(), visited_.end(), fork.visited_.begin(), visited_.begin(),
+                 [](char own, char other) { return own | other; });
+}
+
 cv::Rect EdgelMap::tilesOf(double left, double top, double right, double bottom) const
 {
   // An edgel may lie up to a pixel outside the tile of the pixel that gave it.

@@ -68,7 +68,7 @@ class EdgelTile
  * An edgel is a maximum of the gradient along its own direction, placed by a parabola. The gradient is that of the
  * strongest of B, G and R, as in the fill pipeline's edges (paper, section 3.1).
  *
- * Copies share the tiles and count their looks apart: threads work with one each.
+ * Forks share the tiles and count their looks apart: threads work with one each.
  */
 class EdgelMap
 {
@@ -92,11 +92,16 @@ class EdgelMap
     return looks_;
   }
 
-  /** Counts the looks of a copy. */
-  void addLooks(std::size_t looks)
+  /** A copy for work that may be thrown away, or done beside other work. */
+  EdgelMap fork() const
   {
-    looks_ += looks;
+    EdgelMap copy = *this;
+    copy.looks_before_ = looks_;
+    return copy;
   }
+
+  /** Counts what a fork has looked at and visited. */
+  void join(const EdgelMap& fork);
 
   bool isSpent() const
   {
@@ -176,6 +181,7 @@ class EdgelMap
   std::vector<char> visited_;  // per tile
   float threshold_ = 0;
   std::size_t looks_ = 0;
+  std::size_t looks_before_ = 0;  // the fork
   std::size_t max_looks_ = 0;
 };
 

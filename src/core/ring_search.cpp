@@ -1,18 +1,18 @@
 #include "ring_search.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+#include <numeric>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "arc_seeds.h"
+#include "ring_places.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int MAX_PIECES = 50;              // that are looked at
-constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
-constexpr double UNDISPUTED_EVIDENCE = .9;  // of a half-hidden one
+constexpr std::size_t MAX_PIECES = 50;  // that are looked at
 
 // A picture with targets takes .05 to .4 looks a pixel, clutter up to 3.
 constexpr double LOOKS_PER_PIXEL = .6;
@@ -27,74 +27,184 @@ constexpr double MANY_VOTES = .3;
 
 struct ArcSeed
 {
+  bool is_found = false;
   RingSeed seed;
   double votes = 0;
 };
 
-bool contains(const RingCandidate& candidate, const cv::Point2d& point)
+std::size_t sharedLooks(const cv::Size& image_size, double share)
 {
-  return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
+  return static_cast<std::size_t>(share * static_cast<double>(allowedLooks(image_size)));
 }
 
-bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
+/** Grows a seed whose boundary was seen. */
+void grow(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
 {
-  return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
-    return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
-  });
+  grown.is_target =
+      growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
 }
 
-bool isUndisputed(const RingCandidate& candidate)
+/** Seeds are grown in their order, where nothing undisputed was found yet: two at a time, in two threads. */
+class Search
 {
-  return candidate.evidence * candidate.visible > UNDISPUTED || candidate.evidence > UNDISPUTED_EVIDENCE;
-}
-
-double score(const RingCandidate& candidate)
-{
-  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
-}
-
-/** Of candidates one of which contains the other's centre, the best. */
-std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates)
-{
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const RingCandidate& left, const RingCandidate& right) { return score(left) > score(right); });
-  std::vector<RingCandidate> best;
-  for (RingCandidate& candidate : candidates)
+ public:
+  Search(EdgelMap& map, const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings)
+      : map_(map), bgr_(bgr), boards_(boards), min_rings_(min_rings)
   {
-    const bool is_double = std::any_of(best.begin(), best.end(), [&](const RingCandidate& other) {
-      return contains(other, candidate.rings.family.center) || contains(candidate, other.rings.family.center);
-    });
-    if (!is_double)
+  }
+
+  void allow(double share)
+  {
+    map_.setMaxLooks(sharedLooks(bgr_.size(), share));
+  }
+
+  void tryRound(RoundSeeds& seeds, bool with_companions)
+  {
+    for (std::size_t i = 0; i < seeds.seeds.size(); ++i)
     {
-      best.push_back(std::move(candidate));
+      const RingSeed& seed = seeds.seeds[i];
+      if ((seed.companions > 0) != with_companions || !isOpen(seed))
+      {
+        continue;
+      }
+      if (seeds.grown[i])
+      {
+        add(Growth(seed, true, true, std::move(*seeds.grown[i])));
+        continue;
+      }
+      EdgelMap fork = map_.fork();
+      if (hasOwnBoundary(fork, bgr_, seed))
+      {
+        add(Growth(seed, true, false, GrownSeed(std::move(fork))));
+      }
+      else
+      {
+        map_.join(fork);
+      }
+    }
+    growWaiting();
+  }
+
+  void tryArcs(const std::vector<ArcSeed>& arcs, bool with_many_votes)
+  {
+    for (const ArcSeed& arc : arcs)
+    {
+      if ((arc.votes > MANY_VOTES) == with_many_votes && isOpen(arc.seed))
+      {
+        add(Growth(arc.seed, false, false, GrownSeed(map_.fork())));
+      }
+    }
+    growWaiting();
+  }
+
+  /** Those of the largest pieces, the most votes first. */
+  std::vector<ArcSeed> findArcs(const std::vector<Region>& regions)
+  {
+    std::vector<const Region*> pieces;
+    for (const Region* piece : findPieces(regions))
+    {
+      if (pieces.size() < MAX_PIECES && !isTaken(piece->center))
+      {
+        pieces.push_back(piece);
+      }
+    }
+    std::vector<ArcSeed> found(pieces.size());
+    std::vector<EdgelMap> forks(pieces.size(), map_.fork());
+    cv::parallel_for_(cv::Range(0, static_cast<int>(pieces.size())), [&](const cv::Range& range) {
+      for (int i = range.start; i < range.end; ++i)
+      {
+        found[i].is_found = findArcSeed(forks[i], *pieces[i], found[i].seed, found[i].votes);
+      }
+    });
+    for (const EdgelMap& fork : forks)
+    {
+      map_.join(fork);
+    }
+    found.erase(std::remove_if(found.begin(), found.end(), [](const ArcSeed& arc) { return !arc.is_found; }),
+                found.end());
+    std::stable_sort(found.begin(), found.end(),
+                     [](const ArcSeed& left, const ArcSeed& right) { return left.votes > right.votes; });
+    return found;
+  }
+
+  std::vector<RingCandidate> takeBest()
+  {
+    return bestOfEachPlace(std::move(candidates_));
+  }
+
+ private:
+  struct Growth
+  {
+    Growth(const RingSeed& source, bool has_boundary, bool done, GrownSeed start)
+        : seed(&source), is_boundary(has_boundary), is_grown(done), grown(std::move(start))
+    {
+    }
+
+    const RingSeed* seed;
+    bool is_boundary;
+    bool is_grown;
+    GrownSeed grown;
+  };
+
+  bool isTaken(const cv::Point2d& point) const
+  {
+    return isOnBoard(point, boards_) || isInUndisputed(candidates_, point);
+  }
+
+  /** Grows what waits where the seed lies: it may be a part of the same target. */
+  bool isOpen(const RingSeed& seed)
+  {
+    constexpr double APART = 6;  // radii
+    if (!waiting_.empty() && cv::norm(waiting_.front().seed->family.center - seed.family.center) <
+                                 APART * std::max(waiting_.front().seed->radius, seed.radius))
+    {
+      growWaiting();
+    }
+    return !map_.isSpent() && !isTaken(seed.family.center);
+  }
+
+  void add(Growth growth)
+  {
+    waiting_.push_back(std::move(growth));
+    if (waiting_.size() == 2)
+    {
+      growWaiting();
     }
   }
-  return best;
-}
-/** Whether a candidate that no other seed will better contains the point. */
-bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Point2d& point)
-{
-  return std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
-    return isUndisputed(candidate) && contains(candidate, point);
-  });
-}
 
-/** Grows a seed with looks of its own, so that the result is the same in any order and thread. */
-GrownSeed growSeed(EdgelMap map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings)
-{
-  GrownSeed grown;
-  const std::size_t before = map.looks();
-  grown.is_grown = true;
-  grown.is_target = (!is_boundary || hasOwnBoundary(map, bgr, seed)) &&
-                    growCandidate(map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
-  grown.looks = map.looks() - before;
-  return grown;
-}
+  void growWaiting()
+  {
+    cv::parallel_for_(cv::Range(0, static_cast<int>(waiting_.size())), [&](const cv::Range& range) {
+      for (int i = range.start; i < range.end; ++i)
+      {
+        Growth& growth = waiting_[i];
+        if (!growth.is_grown)
+        {
+          grow(bgr_, *growth.seed, growth.is_boundary, min_rings_, growth.grown);
+        }
+      }
+    });
+    for (Growth& growth : waiting_)
+    {
+      if (!isTaken(growth.seed->family.center))
+      {
+        map_.join(growth.grown.map);
+        if (growth.grown.is_target)
+        {
+          candidates_.push_back(std::move(growth.grown.candidate));
+        }
+      }
+    }
+    waiting_.clear();
+  }
 
-void allow(EdgelMap& map, const cv::Mat& bgr, double share)
-{
-  map.setMaxLooks(static_cast<std::size_t>(share * static_cast<double>(allowedLooks(bgr.size()))));
-}
+  EdgelMap& map_;
+  const cv::Mat& bgr_;
+  const std::vector<Checkerboard>& boards_;
+  int min_rings_;
+  std::vector<RingCandidate> candidates_;
+  std::vector<Growth> waiting_;
+};
 }  // namespace
 
 std::size_t allowedLooks(const cv::Size& image_size)
@@ -113,19 +223,24 @@ RoundSeeds toRoundSeeds(const RegionMap& regions)
 void growConcentric(const EdgelMap& source, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
 {
   EdgelMap map = source;
-  allow(map, bgr, CONCENTRIC_SHARE);
+  map.setMaxLooks(sharedLooks(bgr.size(), CONCENTRIC_SHARE));
   std::vector<RingCandidate> candidates;
   for (std::size_t i = 0; i < seeds.seeds.size() && !map.isSpent(); ++i)
   {
     const RingSeed& seed = seeds.seeds[i];
     if (seed.companions > 0 && !isInUndisputed(candidates, seed.family.center))
     {
-      seeds.grown[i] = growSeed(map, bgr, seed, true, min_rings);
-      map.addLooks(seeds.grown[i].looks);
-      if (seeds.grown[i].is_target)
+      GrownSeed grown(map.fork());
+      if (hasOwnBoundary(grown.map, bgr, seed))
       {
-        candidates.push_back(seeds.grown[i].candidate);
+        grow(bgr, seed, true, min_rings, grown);
       }
+      map.join(grown.map);
+      if (grown.is_target)
+      {
+        candidates.push_back(grown.candidate);
+      }
+      seeds.grown[i].emplace(std::move(grown));
     }
   }
 }
@@ -139,62 +254,17 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
 {
-  std::vector<RingCandidate> candidates;
-  const auto is_taken = [&](const cv::Point2d& point) {
-    return isOnBoard(point, boards) || isInUndisputed(candidates, point);
-  };
-  const auto add = [&](GrownSeed grown) {
-    map.addLooks(grown.looks);
-    if (grown.is_target)
-    {
-      candidates.push_back(std::move(grown.candidate));
-    }
-  };
-  const auto try_round = [&](bool with_companions) {
-    for (std::size_t i = 0; i < seeds.seeds.size(); ++i)
-    {
-      const RingSeed& seed = seeds.seeds[i];
-      if ((seed.companions > 0) == with_companions && !map.isSpent() && !is_taken(seed.family.center))
-      {
-        GrownSeed& grown = seeds.grown[i];
-        add(grown.is_grown ? std::move(grown) : growSeed(map, bgr, seed, true, min_rings));
-      }
-    }
-  };
-  allow(map, bgr, CONCENTRIC_SHARE);
-  try_round(true);
-  allow(map, bgr, PIECES_SHARE);
-  std::vector<ArcSeed> arcs;
-  int pieces = 0;
-  for (const Region* piece : findPieces(regions.regions))
-  {
-    if (pieces < MAX_PIECES && !is_taken(piece->center))
-    {
-      ++pieces;
-      ArcSeed arc;
-      if (findArcSeed(map, *piece, arc.seed, arc.votes))
-      {
-        arcs.push_back(arc);
-      }
-    }
-  }
-  std::stable_sort(arcs.begin(), arcs.end(),
-                   [](const ArcSeed& left, const ArcSeed& right) { return left.votes > right.votes; });
-  const auto try_arcs = [&](bool with_many_votes) {
-    for (const ArcSeed& arc : arcs)
-    {
-      if ((arc.votes > MANY_VOTES) == with_many_votes && !map.isSpent() && !is_taken(arc.seed.family.center))
-      {
-        add(growSeed(map, bgr, arc.seed, false, min_rings));
-      }
-    }
-  };
-  try_arcs(true);
-  allow(map, bgr, SINGLE_SHARE);
-  try_round(false);
-  allow(map, bgr, 1);
-  try_arcs(false);
-  return bestOfEachPlace(std::move(candidates));
+  Search search(map, bgr, boards, min_rings);
+  search.allow(CONCENTRIC_SHARE);
+  search.tryRound(seeds, true);
+  search.allow(PIECES_SHARE);
+  const std::vector<ArcSeed> arcs = search.findArcs(regions.regions);
+  search.tryArcs(arcs, true);
+  search.allow(SINGLE_SHARE);
+  search.tryRound(seeds, false);
+  search.allow(1);
+  search.tryArcs(arcs, false);
+  return search.takeBest();
 }
 
 }  // namespace omr

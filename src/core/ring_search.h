@@ -1,6 +1,8 @@
 #ifndef OUTDOOR_OMR_CORE_RING_SEARCH_H
 #define OUTDOOR_OMR_CORE_RING_SEARCH_H
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "edgels.h"
@@ -17,17 +19,20 @@ std::size_t allowedLooks(const cv::Size& image_size);
 /** What became of a seed. */
 struct GrownSeed
 {
-  bool is_grown = false;
+  explicit GrownSeed(EdgelMap fork) : map(std::move(fork))
+  {
+  }
+
   bool is_target = false;
   RingCandidate candidate;
-  std::size_t looks = 0;
+  EdgelMap map;  ///< a fork, which knows the looks that it took
 };
 
 /** The round seeds of an image, some grown already. */
 struct RoundSeeds
 {
   std::vector<RingSeed> seeds;
-  std::vector<GrownSeed> grown;  // one a seed
+  std::vector<std::optional<GrownSeed>> grown;  // one a seed
 };
 
 RoundSeeds toRoundSeeds(const RegionMap& regions);

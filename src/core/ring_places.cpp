@@ -1,0 +1,62 @@
+#include "ring_places.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace omr
+{
+namespace
+{
+constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
+constexpr double UNDISPUTED_EVIDENCE = .9;  // of a half-hidden one
+
+bool contains(const RingCandidate& candidate, const cv::Point2d& point)
+{
+  return cv::norm(candidate.rings.family.toPlane(point)) < candidate.rings.radii.back();
+}
+
+bool isUndisputed(const RingCandidate& candidate)
+{
+  return candidate.evidence * candidate.visible > UNDISPUTED || candidate.evidence > UNDISPUTED_EVIDENCE;
+}
+
+double score(const RingCandidate& candidate)
+{
+  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
+}
+}  // namespace
+
+bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
+{
+  return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
+    return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
+  });
+}
+
+bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Point2d& point)
+{
+  return std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
+    return isUndisputed(candidate) && contains(candidate, point);
+  });
+}
+
+std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates)
+{
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const RingCandidate& left, const RingCandidate& right) { return score(left) > score(right); });
+  std::vector<RingCandidate> best;
+  for (RingCandidate& candidate : candidates)
+  {
+    const bool is_double = std::any_of(best.begin(), best.end(), [&](const RingCandidate& other) {
+      return contains(other, candidate.rings.family.center) || contains(candidate, other.rings.family.center);
+    });
+    if (!is_double)
+    {
+      best.push_back(std::move(candidate));
+    }
+  }
+  return best;
+}
+
+}  // namespace omr

@@ -1,0 +1,21 @@
+#ifndef OUTDOOR_OMR_CORE_RING_PLACES_H
+#define OUTDOOR_OMR_CORE_RING_PLACES_H
+
+#include <vector>
+
+#include "outdoor_omr/checkerboard.h"
+#include "ring_candidate.h"
+
+namespace omr
+{
+bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards);
+
+/** Whether a candidate that no other seed will better contains the point. */
+bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Point2d& point);
+
+/** Of candidates one of which contains the other's centre, the best. */
+std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates);
+
+}  // namespace omr
+
+#endif
