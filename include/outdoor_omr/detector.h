@@ -5,23 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/fill_pipeline.h"
+#include "outdoor_omr/marker_network.h"
+#include "outdoor_omr/markers.h"
 #include "outdoor_omr/region.h"
 #include "outdoor_omr/settings.h"
-#include "outdoor_omr/step_time.h"
-#include "outdoor_omr/target.h"
 
 namespace omr
 {
-/** All markers of one image. */
-struct Markers
-{
-  std::vector<Checkerboard> checkerboards;
-  std::vector<Target> targets;
-  std::vector<StepTime> times;  ///< in the order of the steps
-};
-
 /** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. Not thread-safe;
  * targets are searched in a second thread while boards are. */
 class Detector
@@ -29,6 +20,9 @@ class Detector
  public:
   /** @param device and errors: see FillPipeline::FillPipeline(). */
   explicit Detector(const std::string& device = "auto");
+
+  /** In the place of the default network, see omr_train. */
+  void setNetwork(const MarkerNetwork& network);
 
   /**
    * @param bgr      H x W, CV_8UC3, any row step.
@@ -43,8 +37,14 @@ class Detector
   const FillPipeline& pipeline() const;
 
  private:
+  Markers findMarkers(const cv::Mat& bgr, const RegionMap& regions, const Settings& settings,
+                      std::vector<StepTime>& times) const;
+
   FillPipeline pipeline_;
+  MarkerNetwork network_ = defaultMarkerNetwork();
   RegionMap regions_;
+  RegionMap enlarged_regions_;
+  std::vector<MarkerScores> window_scores_;
 };
 
 }  // namespace omr

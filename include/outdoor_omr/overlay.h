@@ -13,9 +13,9 @@ namespace omr
  * Checkerboards, each in a colour of its own: the outer quadrilateral with a dot at its first corner, a circle at the
  * centre of every square that was seen, the size in squares (with ">=" where a rim may be hidden), and the inner
  * corners as upright green crosses where seen, as tilted red ones where only predicted. Targets, yellow: a circle at
- * the centre, its number in markers.targets, the colour sequence and the ellipse of each ring. Regions: each in a
- * pseudo-random colour that follows from its label, the first blue, edge pixels yellow. Positions that are not finite
- * or lie far outside the image are left out.
+ * the centre, its number in markers.targets, the colour sequence and the ellipse of each ring. Candidates: a dashed
+ * box, green where a marker was read, red where not. Regions: each in a pseudo-random colour that follows from its
+ * label, the first blue, edge pixels yellow. Positions that are not finite or lie far outside the image are left out.
  *
  * @param bgr      H x W, CV_8UC3; not changed.
  * @param markers  what Detector::detect() found in it.

@@ -28,6 +28,14 @@ enum class FillMethod
   sweep  ///< the paper's four directional sweeps (section 3.2)
 };
 
+/** What becomes of the preliminary detection (paper, section 4.5). */
+enum class CandidateMode
+{
+  off,
+  on,          ///< candidates are reported; those not read get a second look
+  second_look  ///< only the second look; candidates are not reported
+};
+
 /**
  * Every tunable of the detector, with its default. The list, with unit, bounds and meaning, is settings.def.
  */

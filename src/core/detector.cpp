@@ -2,9 +2,12 @@
 
 #include <chrono>
 #include <future>
+#include <utility>
 
+#include "outdoor_omr/candidates.h"
 #include "outdoor_omr/checkerboards.h"
 #include "outdoor_omr/frame.h"
+#include "outdoor_omr/second_look.h"
 #include "outdoor_omr/targets.h"
 
 namespace omr
@@ -37,17 +40,19 @@ Detector::Detector(const std::string& device) : pipeline_(device)
 {
 }
 
-Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
+void Detector::setNetwork(const MarkerNetwork& network)
 {
-  settings.check();
+  network_ = network;
+}
+
+Markers Detector::findMarkers(const cv::Mat& bgr, const RegionMap& regions, const Settings& settings,
+                              std::vector<StepTime>& times) const
+{
   Markers markers;
-  FillPipeline::Outputs outputs;
-  outputs.edges = outputs.labels = settings.overlay_regions;
-  pipeline_.run(bgr, settings, outputs, regions_, &markers.times);
-  StopWatch watch(markers.times);
+  StopWatch watch(times);
   const Frame frame = makeFrame(bgr);
   watch.step("pyramid");
-  TargetSearch targets(frame, regions_, settings);
+  TargetSearch targets(frame, regions, settings);
   std::future<void> ahead;
   if (settings.detect_checkerboards && settings.detect_targets)
   {
@@ -55,7 +60,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   }
   if (settings.detect_checkerboards)
   {
-    markers.checkerboards = findCheckerboards(frame, regions_, settings);
+    markers.checkerboards = findCheckerboards(frame, regions, settings);
     watch.step("checkerboards");
   }
   if (settings.detect_targets)
@@ -67,6 +72,38 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     markers.targets = targets.finish(markers.checkerboards);
     watch.step("targets");
   }
+  return markers;
+}
+
+Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
+{
+  settings.check();
+  const bool candidates = settings.candidate_mode != CandidateMode::off;
+  std::vector<StepTime> times;
+  FillPipeline::Outputs outputs;
+  outputs.edges = outputs.labels = settings.overlay_regions;
+  outputs.network = candidates ? &network_ : nullptr;
+  outputs.window_scores = &window_scores_;
+  pipeline_.run(bgr, settings, outputs, regions_, &times);
+  Markers markers = findMarkers(bgr, regions_, settings, times);
+  if (candidates)
+  {
+    StopWatch watch(times);
+    markers.candidates = findCandidates(bgr.size(), window_scores_, network_);
+    markRead(markers.candidates, markers.checkerboards, markers.targets);
+    const auto detect = [&](const cv::Mat& enlarged) {
+      std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
+      pipeline_.run(enlarged, settings, {}, enlarged_regions_);
+      return findMarkers(enlarged, enlarged_regions_, settings, own_times);
+    };
+    lookAgain(bgr, settings.candidate_looks, detect, markers);
+    watch.step("second look");
+    if (settings.candidate_mode == CandidateMode::second_look)
+    {
+      markers.candidates.clear();
+    }
+  }
+  markers.times = std::move(times);
   return markers;
 }
 

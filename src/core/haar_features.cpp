@@ -209,6 +209,21 @@ float meanDeviation(const Plane& plane)
   return static_cast<float>(sum) / CELLS;
 }
 
+/** Adds two crossing shifts, in whatever order, once. */
+void addCrossing(int first, int second, int sum, int difference, std::vector<HaarTables::Crossing>& crossings)
+{
+  const auto byte = [](int index) { return static_cast<std::uint8_t>(index); };
+  const HaarTables::Crossing crossing = {byte(std::min(first, second)), byte(std::max(first, second)), byte(sum),
+                                         byte(difference)};
+  const bool known = std::any_of(crossings.begin(), crossings.end(), [&](const HaarTables::Crossing& other) {
+    return other.first == crossing.first && other.second == crossing.second;
+  });
+  if (!known)
+  {
+    crossings.push_back(crossing);
+  }
+}
+
 HaarTables makeTables()
 {
   HaarTables tables;
@@ -243,8 +258,7 @@ HaarTables makeTables()
         const int difference = shiftIndex(ux - vx, uy - vy);
         if (v > 0 && u <= 3 && v <= 3 && u <= 2.1 * v && v <= 2.1 * u && crosses && sum >= 0 && difference >= 0)
         {
-          const auto byte = [](int index) { return static_cast<std::uint8_t>(index); };
-          tables.crossings.push_back({byte(shiftIndex(ux, uy)), byte(shiftIndex(vx, vy)), byte(sum), byte(difference)});
+          addCrossing(shiftIndex(ux, uy), shiftIndex(vx, vy), sum, difference, tables.crossings);
         }
       }
     }

@@ -209,6 +209,30 @@ void drawTarget(Canvas& canvas, const Target& target, std::size_t id)
   drawText(canvas, std::to_string(id) + ": " + target.colors, labelAnchor(target, radius), YELLOW);
 }
 
+void drawDashed(Canvas& canvas, const cv::Point2d& from, const cv::Point2d& to, const Color& color)
+{
+  const double dash = 5 * canvas.scale;
+  const int count = std::max(1, cvRound(cv::norm(to - from) / dash));
+  for (int i = 0; i < count; i += 2)
+  {
+    drawLine(canvas, from + (to - from) * i / count, from + (to - from) * std::min(i + 1, count) / count, color);
+  }
+}
+
+/** Green where a marker was read. */
+void drawCandidate(Canvas& canvas, const Candidate& candidate)
+{
+  const Color& color = candidate.read ? GREEN : RED;
+  const cv::Point2d top_left = candidate.box.tl();
+  const cv::Point2d bottom_right = candidate.box.br();
+  const cv::Point2d top_right(bottom_right.x, top_left.y);
+  const cv::Point2d bottom_left(top_left.x, bottom_right.y);
+  drawDashed(canvas, top_left, top_right, color);
+  drawDashed(canvas, top_right, bottom_right, color);
+  drawDashed(canvas, bottom_right, bottom_left, color);
+  drawDashed(canvas, bottom_left, top_left, color);
+}
+
 void checkInput(const cv::Mat& bgr, const RegionMap& regions)
 {
   if (bgr.empty() || bgr.type() != CV_8UC3)
@@ -233,6 +257,10 @@ cv::Mat drawOverlay(const cv::Mat& bgr, const Markers& markers, const RegionMap&
   if (!regions.labels.empty())
   {
     paintRegions(canvas.image, regions.labels, regions.edges);
+  }
+  for (const Candidate& candidate : markers.candidates)
+  {
+    drawCandidate(canvas, candidate);
   }
   for (std::size_t i = 0; i < markers.checkerboards.size(); ++i)
   {

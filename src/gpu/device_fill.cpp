@@ -208,7 +208,7 @@ void DeviceFill::warmUp()
       finish();
     }
   }
-  releaseWindows();
+  windows_ = WindowBuffers();
 }
 
 }  // namespace omr

@@ -56,8 +56,8 @@ class DeviceFill
   /** The integral image of the loaded image, as cv::integral() gives it; waits. */
   void readIntegral(cv::Mat& integral);
 
-  /** Frees what scoreWindows() needs. */
-  void releaseWindows();
+  /** In the place of scoreWindows(): frees what it needs after many images without. */
+  void spareWindows();
 
   void filter(Filter filter, int size);
   void findEdges(const EdgeThreshold& threshold);
@@ -132,6 +132,7 @@ class DeviceFill
   int compute_units_;
   FillBuffers buffers_;
   WindowBuffers windows_;
+  int images_without_windows_ = 0;  // in a row
   GrowingBuffer upload_, edge_image_, label_image_, sweep_labels_;
   cv::Mat bgr_;       ///< holds the pixels until finish()
   cl::Buffer image_;  ///< what the next step reads: the loaded or the filtered image

@@ -43,6 +43,7 @@ void DeviceFill::findIntegral()
 
 void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores)
 {
+  images_without_windows_ = 0;
   windows_.reserve(context_, size_, divideUp(size_.height, integralRows(size_.height, compute_units_)));
   if (windows_.tables.bytes() == 0)
   {
@@ -84,9 +85,13 @@ void DeviceFill::readIntegral(cv::Mat& integral)
   queue_.enqueueReadBuffer(*windows_.integral, CL_TRUE, 0, integral.total() * integral.elemSize(), integral.data);
 }
 
-void DeviceFill::releaseWindows()
+void DeviceFill::spareWindows()
 {
-  windows_ = WindowBuffers();
+  images_without_windows_ += 1;
+  if (images_without_windows_ > PATIENCE)
+  {
+    windows_ = WindowBuffers();
+  }
 }
 
 }  // namespace omr

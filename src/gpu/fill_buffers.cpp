@@ -15,9 +15,6 @@ namespace
 constexpr cl_uint FIRST_RECORDS = 65536;
 constexpr cl_uint FIRST_REPORTED = 16384;
 
-/** Images in a row that need less than a quarter of a buffer before it shrinks: some seconds of video. */
-constexpr int PATIENCE = 100;
-
 /** Room for a quarter more than was needed, so that a growing scene does not grow the buffer in every frame. */
 std::size_t withMargin(cl_uint count, cl_uint least)
 {

@@ -34,6 +34,9 @@ struct Counters
   cl_uint changed = 0;
 };
 
+/** Images in a row that need less than a quarter of a buffer before it shrinks: some seconds of video. */
+constexpr int PATIENCE = 100;
+
 /** A device buffer that grows at once and shrinks when it has been far too large for many images. */
 class GrowingBuffer
 {

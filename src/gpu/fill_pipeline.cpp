@@ -152,7 +152,7 @@ class FillPipeline::Implementation
       }
       else
       {
-        fill_->releaseWindows();
+        fill_->spareWindows();
       }
       fill_->filter(settings.filter, settings.filter_size);
       fill_->findEdges(edgeThreshold(settings));

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "candidate_messages.h"
 #include "caught.h"
 #include "checked_nodelet.h"
 #include "diagnostics.h"
@@ -38,6 +39,11 @@ class DetectorNodelet : public CheckedNodelet
       NODELET_WARN("%s", complaint.c_str());
     }
     detector_ = std::make_unique<Detector>(private_nh.param<std::string>("device", "auto"));
+    const auto network = private_nh.param<std::string>("candidate_network", "");
+    if (!network.empty())
+    {
+      detector_->setNetwork(loadMarkerNetwork(network));
+    }
     NODELET_INFO("Detecting markers on: %s", detector_->pipeline().deviceName().c_str());
     diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_nh, getName(), detector_->pipeline());
     image_thread_ = std::make_unique<ImageThread>([this](const auto& image) { process(image); });
@@ -50,6 +56,9 @@ class DetectorNodelet : public CheckedNodelet
     const auto connect = [this](const auto& /*listener*/) { this->connect(); };
     checkerboards_ = private_nh.advertise<outdoor_omr::CheckerboardArray>("checkerboards", 1, connect, connect);
     targets_ = private_nh.advertise<outdoor_omr::TargetArray>("targets", 1, connect, connect);
+    candidates_ = private_nh.advertise<outdoor_omr::CandidateArray>("candidates", 1, connect, connect);
+    region_of_interest_ =
+        private_nh.advertise<sensor_msgs::RegionOfInterest>("region_of_interest", 1, connect, connect);
     overlay_ = image_transport::ImageTransport(private_nh).advertise("overlay", 1, connect, connect);
   }
 
@@ -58,8 +67,10 @@ class DetectorNodelet : public CheckedNodelet
   {
     const std::string error = caught([this] {
       const std::lock_guard<std::mutex> lock(connect_mutex_);
-      const bool listened =
-          checkerboards_.getNumSubscribers() + targets_.getNumSubscribers() + overlay_.getNumSubscribers() > 0;
+      const bool listened = checkerboards_.getNumSubscribers() + targets_.getNumSubscribers() +
+                                candidates_.getNumSubscribers() + region_of_interest_.getNumSubscribers() +
+                                overlay_.getNumSubscribers() >
+                            0;
       if (!listened)
       {
         images_.shutdown();
@@ -120,6 +131,11 @@ class DetectorNodelet : public CheckedNodelet
     const Markers markers = detector_->detect(bgr, settings);
     publish(checkerboards_, toMessage(image->header, bgr.size(), markers.checkerboards));
     publish(targets_, toMessage(image->header, bgr.size(), markers.targets));
+    if (settings.candidate_mode == CandidateMode::on)
+    {
+      publish(candidates_, toMessage(image->header, bgr.size(), markers.candidates));
+      publish(region_of_interest_, unreadRegion(bgr.size(), markers.candidates));
+    }
     if (draw)
     {
       const cv::Mat picture = drawOverlay(bgr, markers, detector_->regions());
@@ -151,6 +167,8 @@ class DetectorNodelet : public CheckedNodelet
   std::mutex connect_mutex_;
   ros::Publisher checkerboards_;
   ros::Publisher targets_;
+  ros::Publisher candidates_;
+  ros::Publisher region_of_interest_;
   image_transport::Publisher overlay_;
 
   // Destroyed from the last to the first: no more images, no more sliders, then the image at work is finished.

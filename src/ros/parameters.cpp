@@ -14,8 +14,8 @@ namespace omr
 namespace
 {
 /** What others read in the same namespace: this nodelet, image_transport, diagnostic_updater and the nodelet loader. */
-const std::array<const char*, 5> OTHER_PARAMETERS = {"device", "overlay", "image_transport", "diagnostic_period",
-                                                     "num_worker_threads"};
+const std::array<const char*, 6> OTHER_PARAMETERS = {"device",          "candidate_network", "overlay",
+                                                     "image_transport", "diagnostic_period", "num_worker_threads"};
 
 /** The value as setParameter() reads it. */
 std::string text(const XmlRpc::XmlRpcValue& value)

@@ -230,7 +230,7 @@ MarkerScene renderMarkerScene(const cv::Mat& background, cv::RNG& random)
   for (int i = 0; i < grid * grid; ++i)
   {
     PlacedMarker marker;
-    marker.kind = chance(random, .4) ? MarkerKind::checkerboard : MarkerKind::target;
+    marker.kind = chance(random, .3) ? MarkerKind::checkerboard : MarkerKind::target;
     const bool board = marker.kind == MarkerKind::checkerboard;
     marker.squares = {random.uniform(5, 22), random.uniform(5, 22)};
     marker.colors = randomColors(random);

@@ -59,6 +59,15 @@ Json toJson(const Target& target)
   }
   return {{"colors", target.colors}, {"center", toJson(target.center)}, {"rings", rings}};
 }
+
+Json toJson(const Candidate& candidate)
+{
+  return {{"kind", candidate.kind == MarkerKind::checkerboard ? "checkerboard" : "target"},
+          {"box", {candidate.box.x, candidate.box.y, candidate.box.width, candidate.box.height}},
+          {"score", rounded(candidate.score)},
+          {"windows", candidate.windows},
+          {"read", candidate.read}};
+}
 }  // namespace
 
 Json toJson(const std::string& image, const cv::Size& size, double milliseconds, const Markers& markers)
@@ -78,10 +87,15 @@ Json toJson(const std::string& image, const cv::Size& size, double milliseconds,
   {
     targets.push_back(toJson(target));
   }
+  Json candidates = Json::array();
+  for (const Candidate& candidate : markers.candidates)
+  {
+    candidates.push_back(toJson(candidate));
+  }
   return {{"image", image},        {"width", size.width},
           {"height", size.height}, {"time_ms", rounded(milliseconds)},
           {"steps_ms", steps},     {"checkerboards", checkerboards},
-          {"targets", targets}};
+          {"targets", targets},    {"candidates", candidates}};
 }
 
 }  // namespace omr

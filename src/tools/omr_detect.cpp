@@ -25,6 +25,7 @@ struct Options
   omr::DetectorOptions detector;
   std::string overlay;
   std::string json;
+  std::string network;
   bool list_devices = false;
   bool list_parameters = false;
   std::vector<std::string> images;
@@ -91,6 +92,15 @@ void printSummary(const std::string& name, double milliseconds, const omr::Marke
               << " squares, first corner (" << board.corners[0].x << ", " << board.corners[0].y << "), " << seen
               << " of " << board.inner_corners.size() << " inner corners seen\n";
   }
+  for (const omr::Candidate& candidate : markers.candidates)
+  {
+    if (!candidate.read)
+    {
+      std::cout << "  perhaps a " << (candidate.kind == omr::MarkerKind::checkerboard ? "checkerboard" : "target")
+                << " at (" << candidate.box.x << ", " << candidate.box.y << "), " << candidate.box.width << " x "
+                << candidate.box.height << " px\n";
+    }
+  }
   for (const omr::Target& target : markers.targets)
   {
     std::cout << "  target " << target.colors << " at (" << target.center.x << ", " << target.center.y << ")\n";
@@ -141,6 +151,10 @@ omr::ExitCode detectAll(const Options& options)
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
   const omr::Settings settings = options.detector.settings();
   omr::Detector detector(options.detector.device);
+  if (!options.network.empty())
+  {
+    detector.setNetwork(omr::loadMarkerNetwork(options.network));
+  }
   std::ofstream file;
   if (!options.json.empty() && options.json != "-")
   {
@@ -205,6 +219,7 @@ int parseAndRun(int argc, char** argv)
   options.detector.addTo(app);
   app.add_option("--overlay", options.overlay, "folder for pictures with the markers drawn");
   app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
+  app.add_option("--network", options.network, "yaml file of omr_train for the candidates; default: the built-in one");
   auto* devices = app.add_flag("--list-devices", options.list_devices, "names the OpenCL devices and ends");
   auto* parameters = app.add_flag("--list-parameters", options.list_parameters, "prints all parameters and ends");
   app.add_option("images", options.images, "image files");

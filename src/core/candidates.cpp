@@ -1,0 +1,151 @@
+#include "outdoor_omr/candidates.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/haar_features.h"
+
+namespace omr
+{
+namespace
+{
+/** Windows that a candidate needs at least. */
+constexpr std::array<int, MARKER_KINDS> LEAST_WINDOWS = {1, 1};
+
+/** Boxes that share more than this of the smaller one are one candidate. */
+constexpr double SAME = .5;
+
+/** Share of a candidate's box that a marker must cover, or of the marker that the box must cover, for it to be read. */
+constexpr double READ = .4;
+
+/** A candidate with what decides between rivals. */
+struct Cluster
+{
+  Candidate candidate;
+  double support = 0;  // sum of its windows' scores, and of those merged into it
+};
+
+/** Neighbouring windows of one level above the threshold of a kind. */
+void addClusters(const MarkerScores* scores, const cv::Size& grid, int level, MarkerKind kind, float threshold,
+                 std::vector<Cluster>& clusters)
+{
+  const int k = static_cast<int>(kind);
+  cv::Mat above(grid, CV_8UC1);
+  for (int i = 0; i < grid.area(); ++i)
+  {
+    above.at<uchar>(i / grid.width, i % grid.width) = scores[i][k] > threshold ? 1 : 0;
+  }
+  if (cv::countNonZero(above) == 0)
+  {
+    return;
+  }
+  // One window missed between two does not part them.
+  cv::Mat closed;
+  cv::dilate(above, closed, cv::Mat::ones(3, 3, CV_8UC1));
+  cv::Mat labels;
+  const int count = cv::connectedComponents(closed, labels, 8, CV_32S);
+  std::vector<Cluster> found(count);
+  for (int i = 0; i < grid.area(); ++i)
+  {
+    const cv::Point index(i % grid.width, i / grid.width);
+    if (above.at<uchar>(index) == 0)
+    {
+      continue;
+    }
+    const int label = labels.at<int>(index);
+    Cluster& cluster = found[label];
+    cluster.candidate.box |= windowRect(index, level);
+    cluster.candidate.score = std::max(cluster.candidate.score, scores[i][k]);
+    cluster.support += scores[i][k];
+    cluster.candidate.windows += 1;
+  }
+  for (int label = 1; label < count; ++label)
+  {
+    if (found[label].candidate.windows >= LEAST_WINDOWS[k])
+    {
+      found[label].candidate.kind = kind;
+      found[label].candidate.cell = cellSize(level);
+      clusters.push_back(found[label]);
+    }
+  }
+}
+
+/** Of two clusters in one place the better supported one stays; the box covers both if they are of one kind. */
+std::vector<Cluster> merge(std::vector<Cluster> clusters)
+{
+  std::sort(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) { return a.support > b.support; });
+  std::vector<Cluster> merged;
+  for (const Cluster& cluster : clusters)
+  {
+    const auto same = std::find_if(merged.begin(), merged.end(), [&](const Cluster& other) {
+      const double shared = (other.candidate.box & cluster.candidate.box).area();
+      return shared > SAME * std::min(other.candidate.box.area(), cluster.candidate.box.area());
+    });
+    if (same == merged.end())
+    {
+      merged.push_back(cluster);
+    }
+    else if (same->candidate.kind == cluster.candidate.kind)
+    {
+      same->candidate.box |= cluster.candidate.box;
+      same->candidate.score = std::max(same->candidate.score, cluster.candidate.score);
+      same->candidate.windows += cluster.candidate.windows;
+      same->support += cluster.support;
+    }
+  }
+  return merged;
+}
+
+/** A marker's box covers the candidate, or the other way round. */
+bool shows(const Candidate& candidate, const cv::Rect& marker)
+{
+  const double shared = (candidate.box & marker).area();
+  return shared > READ * std::min(candidate.box.area(), marker.area());
+}
+}  // namespace
+
+std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<MarkerScores>& scores,
+                                      const MarkerNetwork& network)
+{
+  std::vector<Cluster> clusters;
+  const MarkerScores* first = scores.data();
+  for (int level = 0; level < HAAR_LEVELS; ++level)
+  {
+    const cv::Size grid = windowGrid(size, level);
+    if (grid.empty())
+    {
+      break;
+    }
+    for (const MarkerKind kind : {MarkerKind::checkerboard, MarkerKind::target})
+    {
+      addClusters(first, grid, level, kind, network.thresholds[static_cast<int>(kind)], clusters);
+    }
+    first += grid.area();
+  }
+  clusters = merge(merge(std::move(clusters)));  // a box that grew may have reached another one
+  std::vector<Candidate> candidates;
+  for (const Cluster& cluster : clusters)
+  {
+    candidates.push_back(cluster.candidate);
+  }
+  return candidates;
+}
+
+void markRead(std::vector<Candidate>& candidates, const std::vector<Checkerboard>& checkerboards,
+              const std::vector<Target>& targets)
+{
+  for (Candidate& candidate : candidates)
+  {
+    for (const Checkerboard& board : checkerboards)
+    {
+      const std::vector<cv::Point2f> corners(board.corners.begin(), board.corners.end());
+      candidate.read = candidate.read || shows(candidate, cv::boundingRect(corners));
+    }
+    for (const Target& target : targets)
+    {
+      candidate.read = candidate.read || shows(candidate, target.rings.back().boundingRect());
+    }
+  }
+}
+
+}  // namespace omr
