@@ -242,12 +242,13 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
     const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
     search(groupSaddlePoints(frame, level, faint, map));
   }
-  std::vector<Checkerboard> boards;
-  boards.reserve(candidates.size());
-  for (Candidate& candidate : candidates)
-  {
-    boards.push_back(finish(candidate, frame, regions));
-  }
+  std::vector<Checkerboard> boards(candidates.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(boards.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      boards[i] = finish(candidates[i], frame, regions);
+    }
+  });
   return boards;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
+#include <utility>
 
 #include "gradient_tile.h"
 #include "vectorized.h"
@@ -157,8 +158,8 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
 }
 }  // namespace
 
-EdgelMap::Tiles::Tiles(const cv::Mat& image, const cv::Size& size)
-    : bgr(image), grid(size), tiles(static_cast<std::size_t>(size.area()))
+EdgelMap::Tiles::Tiles(cv::Mat image, const cv::Size& size)
+    : bgr(std::move(image)), grid(size), tiles(static_cast<std::size_t>(size.area()))
 {
 }
 

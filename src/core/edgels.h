@@ -165,7 +165,7 @@ class EdgelMap
   /** What copies share. */
   struct Tiles
   {
-    Tiles(const cv::Mat& image, const cv::Size& size);
+    Tiles(cv::Mat image, const cv::Size& size);
 
     cv::Mat bgr;
     cv::Size grid;

@@ -15,31 +15,24 @@ namespace
 {
 constexpr int WINDOW = 3;  // nodes, of a prediction beside the lattice
 
-/** Whether a corner of the outermost line would convince by itself: clear, where the others say, between four squares
- * whose centres alternate. */
-bool convinces(const Lattice& lattice, const CornerLooker& looker, int row, int col, bool check_squares)
+/** Whether a corner of the outermost line is clear, and where the others say. @param frame receives what they say */
+bool isClear(const Lattice& lattice, int row, int col, LocalFrame& frame)
 {
   constexpr float MIN_CORRELATION = 0.93F;
   constexpr float MAX_DEVIATION = 0.1F;    // squares
   constexpr float DEVIATION_NOISE = 0.4F;  // px
+  const LatticeNode& node = lattice.at(row, col);
+  return node.found && node.correlation >= MIN_CORRELATION && predictNode(lattice, row, col, WINDOW, frame) &&
+         squaresBetween(frame, node.position) <= MAX_DEVIATION + DEVIATION_NOISE / squareHeight(frame);
+}
+
+/** Whether it lies between four squares whose centres alternate. */
+bool isBetweenSquares(const Lattice& lattice, const Frame& image, int row, int col, LocalFrame frame)
+{
   constexpr float MIN_CONTRAST_SHARE = 0.3F;
   const LatticeNode& node = lattice.at(row, col);
-  LocalFrame frame;
-  if (!node.found || node.correlation < MIN_CORRELATION || !predictNode(lattice, row, col, WINDOW, frame))
-  {
-    return false;
-  }
-  const float height = squareHeight(frame);
-  if (squaresBetween(frame, node.position) > MAX_DEVIATION + DEVIATION_NOISE / height)
-  {
-    return false;
-  }
-  if (!check_squares)
-  {
-    return true;
-  }
+  const PyramidView view(image, squareHeight(frame));
   frame.node = node.position;
-  const PyramidView view(looker.frame(), height);
   const float first = view.sample(frame.at(0.5F, 0.5F));
   const float second = view.sample(frame.at(-0.5F, 0.5F));
   const float third = view.sample(frame.at(-0.5F, -0.5F));
@@ -73,7 +66,8 @@ LineSupport lineSupport(const Lattice& lattice, CornerLooker& looker, Side side)
       continue;
     }
     ++found;
-    if (convinces(lattice, looker, node.row, node.col, false))
+    LocalFrame frame;
+    if (isClear(lattice, node.row, node.col, frame))
     {
       ++convincing;
       const Node inner = nodeOnLine(side, line + inwards(side), t);
@@ -81,7 +75,7 @@ LineSupport lineSupport(const Lattice& lattice, CornerLooker& looker, Side side)
       const Node after = nodeOnLine(side, line, t + 1);
       const bool beside = lattice.found(inner.row, inner.col) || lattice.found(before.row, before.col) ||
                           lattice.found(after.row, after.col);
-      anchored += beside && convinces(lattice, looker, node.row, node.col, true) ? 1 : 0;
+      anchored += beside && isBetweenSquares(lattice, looker.frame(), node.row, node.col, frame) ? 1 : 0;
     }
   }
   LineSupport support;

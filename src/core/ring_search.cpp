@@ -220,22 +220,22 @@ RoundSeeds toRoundSeeds(const RegionMap& regions)
   return seeds;
 }
 
-void growConcentric(const EdgelMap& source, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
+void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
 {
-  EdgelMap map = source;
-  map.setMaxLooks(sharedLooks(bgr.size(), CONCENTRIC_SHARE));
+  EdgelMap own = map;
+  own.setMaxLooks(sharedLooks(bgr.size(), CONCENTRIC_SHARE));
   std::vector<RingCandidate> candidates;
-  for (std::size_t i = 0; i < seeds.seeds.size() && !map.isSpent(); ++i)
+  for (std::size_t i = 0; i < seeds.seeds.size() && !own.isSpent(); ++i)
   {
     const RingSeed& seed = seeds.seeds[i];
     if (seed.companions > 0 && !isInUndisputed(candidates, seed.family.center))
     {
-      GrownSeed grown(map.fork());
+      GrownSeed grown(own.fork());
       if (hasOwnBoundary(grown.map, bgr, seed))
       {
         grow(bgr, seed, true, min_rings, grown);
       }
-      map.join(grown.map);
+      own.join(grown.map);
       if (grown.is_target)
       {
         candidates.push_back(grown.candidate);

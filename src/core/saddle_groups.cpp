@@ -1,6 +1,7 @@
 #include "outdoor_omr/saddle_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "outdoor_omr/saddle_points.h"
@@ -11,6 +12,7 @@ namespace
 {
 constexpr int MAX_POINTS = 5000;  // the strongest; three boards of the largest size have 1200
 constexpr int MAX_FAINT_POINTS = 2000;
+constexpr int PARTS = 8;        // of the points, shared by the threads; the seeds do not depend on how many there are
 constexpr float CLEAR_GAP = 5;  // grey levels between light and dark squares
 constexpr float FAINT_GAP = 3;
 
@@ -57,11 +59,11 @@ class PointGrid
         {
           for (int i = first_[y * cols_ + x]; i >= 0; i = next_[i])
           {
-            const cv::Point2f offset = points_[i] - center;
-            const float distance = length(offset);
-            if (distance > MIN_DISTANCE && distance < MAX_DISTANCE)
+            const cv::Point offset = points_[i] - center;
+            const int squared = offset.dot(offset);
+            if (squared >= MIN_SQUARED && squared < MAX_SQUARED)
             {
-              found.push_back({distance, offset});
+              found.push_back({std::sqrt(static_cast<float>(squared)), offset});
             }
           }
         }
@@ -80,8 +82,8 @@ class PointGrid
   static constexpr int CELL = 16;  // px
   static constexpr int MAX_REACH = 3;
   static constexpr std::size_t MAX_NEIGHBOURS = 8;
-  static constexpr float MIN_DISTANCE = 1.8F;  // px
-  static constexpr float MAX_DISTANCE = 40;    // px; larger squares are regions
+  static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
+  static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
 
   const std::vector<cv::Point>& points_;
   int cols_;
@@ -152,23 +154,34 @@ std::vector<Seed> groupSaddlePoints(const Frame& frame, int level, bool faint, c
   const auto scale = static_cast<float>(1 << level);
   const std::vector<cv::Point> points = findSaddlePoints(grey, faint, faint ? MAX_FAINT_POINTS : MAX_POINTS);
   const PointGrid grid(points, grey.size());
+  std::array<std::vector<Seed>, PARTS> parts;
+  const auto count = static_cast<int>(points.size());
+  cv::parallel_for_(cv::Range(0, PARTS), [&](const cv::Range& range) {
+    std::vector<PointGrid::Neighbour> neighbours;
+    for (int part = range.start; part < range.end; ++part)
+    {
+      for (int i = count * part / PARTS; i < count * (part + 1) / PARTS; ++i)
+      {
+        if (!open.isOpen(scale * cv::Point2f(points[i])))
+        {
+          continue;
+        }
+        grid.neighbours(points[i], neighbours);
+        Seed seed;
+        if (frameFromNeighbours(grey, points[i], neighbours, faint ? FAINT_GAP : CLEAR_GAP, seed))
+        {
+          seed.frame.node *= scale;
+          seed.frame.u *= scale;
+          seed.frame.v *= scale;
+          parts[part].push_back(seed);
+        }
+      }
+    }
+  });
   std::vector<Seed> seeds;
-  std::vector<PointGrid::Neighbour> neighbours;
-  for (const cv::Point& point : points)
+  for (const std::vector<Seed>& part : parts)
   {
-    if (!open.isOpen(scale * cv::Point2f(point)))
-    {
-      continue;
-    }
-    grid.neighbours(point, neighbours);
-    Seed seed;
-    if (frameFromNeighbours(grey, point, neighbours, faint ? FAINT_GAP : CLEAR_GAP, seed))
-    {
-      seed.frame.node *= scale;
-      seed.frame.u *= scale;
-      seed.frame.v *= scale;
-      seeds.push_back(seed);
-    }
+    seeds.insert(seeds.end(), part.begin(), part.end());
   }
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.rank > b.rank; });
   return seeds;

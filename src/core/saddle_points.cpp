@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <opencv2/core/hal/intrin.hpp>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
+
+#include "vectorized.h"
 
 namespace omr
 {
@@ -13,8 +15,7 @@ namespace
 {
 constexpr int MARGIN = 4;     // px at the border of the image without saddle points
 constexpr int MIN_SIDE = 16;  // px of an image that can hold a lattice
-constexpr int LANES = 8;
-constexpr int STRIPS = 8;  // of the image, shared by the threads; the points do not depend on how many there are
+constexpr int STRIPS = 8;     // of the image, shared by the threads; the points do not depend on how many there are
 
 /** What a saddle point must have at least. */
 struct Threshold
@@ -27,126 +28,78 @@ constexpr Threshold FAINT = {4, 6};
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
-/** Of three rows, each in turn the newest, what their saddle response is made of. */
-class ResponseRows
+/** 2 Ix of a row. */
+OMR_VECTORIZED void findSlopes(const uchar* __restrict row, int width, std::int16_t* __restrict slope)
 {
- public:
-  explicit ResponseRows(int width) : width_(width), values_(6 * static_cast<std::size_t>(width))
+  for (int x = 1; x < width - 1; ++x)
   {
+    slope[x] = static_cast<std::int16_t>(row[x + 1] - row[x - 1]);
   }
-
-  /** Takes the row below the last one. */
-  void push(const uchar* row)
-  {
-    newest_ = (newest_ + 1) % 3;
-    std::int16_t* values = grey(0);
-    std::int16_t* slopes = slope(0);
-    forEachBlock(0, width_,
-                 [&](int x) { cv::v_store(values + x, cv::v_reinterpret_as_s16(cv::v_load_expand(row + x))); });
-    forEachBlock(1, width_ - 1,
-                 [&](int x) { cv::v_store(slopes + x, cv::v_load(values + x + 1) - cv::v_load(values + x - 1)); });
-  }
-
-  /** 4 (Ixy^2 - Ixx Iyy) of the row in the middle, saturated; positive at saddle points. Eight pixels at a time: the
-   * whole image passes through here. */
-  void respond(std::int16_t* response) const
-  {
-    const std::int16_t* above = grey(2);
-    const std::int16_t* here = grey(1);
-    const std::int16_t* below = grey(0);
-    const std::int16_t* slope_above = slope(2);
-    const std::int16_t* slope_below = slope(0);
-    forEachBlock(1, width_ - 1, [&](int x) {
-      const cv::v_int16x8 twice = cv::v_load(here + x) << 1;
-      const cv::v_int16x8 xx = cv::v_load(here + x - 1) + cv::v_load(here + x + 1) - twice;
-      const cv::v_int16x8 yy = cv::v_load(above + x) + cv::v_load(below + x) - twice;
-      const cv::v_int16x8 xy = cv::v_load(slope_below + x) - cv::v_load(slope_above + x);
-      // 16 Ixy^2 - 16 Ixx Iyy as one sum of two products.
-      const cv::v_int16x8 minus_yy = cv::v_setzero_s16() - (yy << 4);
-      cv::v_int16x8 left_low;
-      cv::v_int16x8 left_high;
-      cv::v_int16x8 right_low;
-      cv::v_int16x8 right_high;
-      cv::v_zip(xy, xx, left_low, left_high);
-      cv::v_zip(xy, minus_yy, right_low, right_high);
-      cv::v_store(response + x,
-                  cv::v_pack(cv::v_dotprod(left_low, right_low) >> 2, cv::v_dotprod(left_high, right_high) >> 2));
-    });
-  }
-
- private:
-  /** Calls the action for blocks of LANES; the last one overlaps the one before. */
-  template <typename Action>
-  static void forEachBlock(int from, int to, const Action& action)
-  {
-    int x = from;
-    for (; x + LANES <= to; x += LANES)
-    {
-      action(x);
-    }
-    action(to - LANES);
-  }
-
-  std::size_t offset(int age) const
-  {
-    return static_cast<std::size_t>((newest_ + 3 - age) % 3) * 2 * width_;
-  }
-  std::int16_t* grey(int age)
-  {
-    return &values_[offset(age)];
-  }
-  const std::int16_t* grey(int age) const
-  {
-    return &values_[offset(age)];
-  }
-  std::int16_t* slope(int age)
-  {
-    return &values_[offset(age) + width_];
-  }
-  const std::int16_t* slope(int age) const
-  {
-    return &values_[offset(age) + width_];
-  }
-
-  int width_;
-  int newest_ = 0;
-  std::vector<std::int16_t> values_;  // of each row the grey values, and their differences along it
-};
-
-using Rows = std::array<const std::int16_t*, 3>;  // responses of three rows, from top to bottom
-
-/** Of eight neighbouring pixels one bit each: whether the response exceeds the least and is a maximum of 3 x 3. */
-int maxima(const Rows& rows, int x, const cv::v_int16x8& least)
-{
-  const auto at = [&](int row, int offset) { return cv::v_load(rows[row] + x + offset); };
-  const cv::v_int16x8 value = at(1, 0);
-  const cv::v_int16x8 strong = value > least;
-  if (!cv::v_check_any(strong))
-  {
-    return 0;
-  }
-  // Of two equal neighbours the first one counts.
-  const cv::v_int16x8 before = cv::v_max(cv::v_max(at(0, -1), at(0, 0)), cv::v_max(at(0, 1), at(1, -1)));
-  const cv::v_int16x8 after = cv::v_max(cv::v_max(at(2, -1), at(2, 0)), cv::v_max(at(2, 1), at(1, 1)));
-  return cv::v_signmask(strong & (value > before) & (value >= after));
 }
 
-/** Calls the action for every x with a response that exceeds the least and is a maximum of 3 x 3. */
-template <typename Action>
-void forEachMaximum(const Rows& rows, int width, int least, const Action& action)
+/** The rows around a row: grey values, and 2 Ix of those above and below. */
+struct Surroundings
 {
-  const cv::v_int16x8 threshold = cv::v_setall_s16(static_cast<short>(least));
-  const int end = width - MARGIN;
-  for (int x = MARGIN; x < end; x += LANES)
+  const uchar *above, *here, *below;
+  const std::int16_t *slope_above, *slope_below;
+};
+
+/** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes through here. */
+OMR_VECTORIZED void respond(const Surroundings& rows, int width, std::int16_t* __restrict response)
+{
+  const uchar* __restrict above = rows.above;
+  const uchar* __restrict here = rows.here;
+  const uchar* __restrict below = rows.below;
+  const std::int16_t* __restrict slope_above = rows.slope_above;
+  const std::int16_t* __restrict slope_below = rows.slope_below;
+  for (int x = 1; x < width - 1; ++x)
   {
-    const int first = std::min(x, end - LANES);  // the last eight overlap those before
-    const int found = maxima(rows, first, threshold);
-    for (int i = x - first; found >> i != 0; ++i)
+    const auto xx = static_cast<std::int16_t>(here[x - 1] + here[x + 1] - 2 * here[x]);
+    const auto yy = static_cast<std::int16_t>(above[x] + below[x] - 2 * here[x]);
+    const auto xy = static_cast<std::int16_t>(slope_below[x] - slope_above[x]);  // 4 Ixy
+    const int value = (xy * xy - 16 * (xx * yy)) >> 2;
+    response[x] = static_cast<std::int16_t>(std::max(-32768, std::min(32767, value)));
+  }
+}
+
+/** The largest of each response and its two neighbours in the row. */
+OMR_VECTORIZED void largestOfThree(const std::int16_t* __restrict response, int width, std::int16_t* __restrict largest)
+{
+  for (int x = 1; x < width - 1; ++x)
+  {
+    largest[x] = std::max(std::max(response[x - 1], response[x + 1]), response[x]);
+  }
+}
+
+/**
+ * Which responses exceed the least and are maxima of 3 x 3; of two equal neighbours the first one counts.
+ *
+ * @param above, below largestOfThree() of those rows.
+ */
+OMR_VECTORIZED void markMaxima(const std::int16_t* __restrict response, const std::int16_t* __restrict above,
+                               const std::int16_t* __restrict below, int width, int least, uchar* __restrict marks)
+{
+  const auto threshold = static_cast<std::int16_t>(least);
+  for (int x = MARGIN; x < width - MARGIN; ++x)
+  {
+    const std::int16_t before = std::max(std::max(above[x], response[x - 1]), threshold);
+    const std::int16_t after = std::max(below[x], response[x + 1]);
+    marks[x] = static_cast<uchar>((response[x] > before) & (response[x] >= after));
+  }
+}
+
+/** Calls the action for every x with a mark. @param marks 0 or 1, in whole words */
+template <typename Action>
+void forEachMark(const std::vector<uchar>& marks, const Action& action)
+{
+  constexpr std::size_t WORD = sizeof(std::uint64_t);
+  for (std::size_t first = 0; first < marks.size(); first += WORD)
+  {
+    std::uint64_t word;
+    std::memcpy(&word, &marks[first], WORD);
+    for (; word != 0; word &= word - 1)
     {
-      if ((found >> i & 1) != 0)
-      {
-        action(first + i);
-      }
+      action(static_cast<int>(first) + __builtin_ctzll(word) / 8);
     }
   }
 }
@@ -183,24 +136,32 @@ struct Point
 void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, std::vector<Point>& found)
 {
   const int width = grey.cols;
-  ResponseRows source(width);
-  std::vector<std::int16_t> buffer(3 * width, 0);
-  std::array<std::int16_t*, 3> rows = {buffer.data(), buffer.data() + width, buffer.data() + 2 * width};
-  source.push(grey.ptr<uchar>(from - 2));
-  source.push(grey.ptr<uchar>(from - 1));
+  std::vector<std::int16_t> buffer(8 * static_cast<std::size_t>(width), 0);
+  const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * width]; };
+  std::array<std::int16_t*, 3> slopes = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
+  std::array<std::int16_t*, 2> responses = {row_of_buffer(3), row_of_buffer(4)};
+  std::array<std::int16_t*, 3> largest = {row_of_buffer(5), row_of_buffer(6), row_of_buffer(7)};
+  std::vector<uchar> marks((static_cast<std::size_t>(width) + 7) / 8 * 8, 0);
+  findSlopes(grey.ptr<uchar>(from - 2), width, slopes[1]);
+  findSlopes(grey.ptr<uchar>(from - 1), width, slopes[2]);
   for (int y = from - 1; y <= to; ++y)
   {
-    std::rotate(rows.begin(), rows.begin() + 1, rows.end());
-    source.push(grey.ptr<uchar>(y + 1));
-    source.respond(rows[2]);
+    std::swap(responses[0], responses[1]);
+    std::rotate(slopes.begin(), slopes.begin() + 1, slopes.end());
+    std::rotate(largest.begin(), largest.begin() + 1, largest.end());
+    findSlopes(grey.ptr<uchar>(y + 1), width, slopes[2]);
+    respond({grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), slopes[0], slopes[2]}, width,
+            responses[1]);
+    largestOfThree(responses[1], width, largest[2]);
     if (y < from + 1)
     {
       continue;
     }
-    forEachMaximum({rows[0], rows[1], rows[2]}, width, least.response, [&](int x) {
+    markMaxima(responses[0], largest[0], largest[2], width, least.response, marks.data());
+    forEachMark(marks, [&](int x) {
       if (isPointSymmetric(grey, x, y - 1, least.range))
       {
-        found.push_back({rows[1][x], {x, y - 1}});
+        found.push_back({responses[0][x], {x, y - 1}});
       }
     });
   }

@@ -122,13 +122,21 @@ std::vector<Target> TargetSearch::finish(const std::vector<Checkerboard>& boards
   {
     return targets;
   }
-  for (RingCandidate& candidate : findRingCandidates(*state_->map, state_->frame.bgr, state_->regions,
-                                                     std::move(state_->seeds), boards, state_->min_rings))
-  {
-    Target target;
-    if (toTarget(std::move(candidate), state_->min_rings, target))
+  std::vector<RingCandidate> candidates = findRingCandidates(*state_->map, state_->frame.bgr, state_->regions,
+                                                             std::move(state_->seeds), boards, state_->min_rings);
+  std::vector<Target> read(candidates.size());
+  std::vector<char> is_target(candidates.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
     {
-      targets.push_back(std::move(target));
+      is_target[i] = toTarget(std::move(candidates[i]), state_->min_rings, read[i]) ? 1 : 0;
+    }
+  });
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    if (is_target[i] != 0)
+    {
+      targets.push_back(std::move(read[i]));
     }
   }
   return targets;
