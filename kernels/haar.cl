@@ -199,6 +199,21 @@ INLINE float meanDeviation(const int8* rows)
   return (float)total(sum) / (WINDOW_CELLS * WINDOW_CELLS);
 }
 
+/** The sum of the 24 differences of neighbours in the left or the right half of four rows, the smaller one. */
+INLINE int contrastOfHalf(const int8* rows)
+{
+  int8 across = 0;
+  for (int y = 0; y < 4; ++y)
+  {
+    across += magnitude(rows[y].s12345677 - rows[y]);
+  }
+  const int8 down =
+      magnitude(rows[1] - rows[0]) + magnitude(rows[2] - rows[1]) + magnitude(rows[3] - rows[2]);
+  const int left = across.s0 + across.s1 + across.s2 + down.s0 + down.s1 + down.s2 + down.s3;
+  const int right = across.s4 + across.s5 + across.s6 + down.s4 + down.s5 + down.s6 + down.s7;
+  return min(left, right);
+}
+
 /** What is looked up, in one buffer: shifts by length, firsts of the bands, then crossings of four shifts. */
 #define BY_LENGTH 0
 #define FIRST_OF_BAND 40
@@ -229,16 +244,11 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
                          int crossings, float* features)
 {
   int8 light[WINDOW_CELLS];
-  Blocks light_blocks[4];
-  for (int i = 0; i < 4; ++i)
+  for (int y = 0; y < WINDOW_CELLS; ++y)
   {
-    light[2 * i] = rowOf(window, cells_across, 2 * i);
-    light[2 * i + 1] = rowOf(window, cells_across, 2 * i + 1);
-    light_blocks[i] = blocksOf(light[2 * i], light[2 * i + 1]);
+    light[y] = rowOf(window, cells_across, y);
   }
-  const int4 upper = light_blocks[0].across + light_blocks[0].down + light_blocks[1].across + light_blocks[1].down;
-  const int4 lower = light_blocks[2].across + light_blocks[2].down + light_blocks[3].across + light_blocks[3].down;
-  if (min(min(upper.x + upper.y, upper.z + upper.w), min(lower.x + lower.y, lower.z + lower.w)) < LEAST_CONTRAST * 16)
+  if (min(contrastOfHalf(light), contrastOfHalf(light + 4)) < LEAST_CONTRAST * 24)
   {
     return false;
   }
@@ -311,14 +321,15 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
 
   for (int i = 0; i < 4; ++i)
   {
+    const Blocks light_blocks = blocksOf(light[2 * i], light[2 * i + 1]);
     const Blocks red_blocks = blocksOf(red[2 * i], red[2 * i + 1]);
     const Blocks blue_blocks = blocksOf(blue[2 * i], blue[2 * i + 1]);
     float values[6][4];
-    vstore4(convert_float4(light_blocks[i].sum - 4 * mean) / (4 * contrast), 0, values[0]);
+    vstore4(convert_float4(light_blocks.sum - 4 * mean) / (4 * contrast), 0, values[0]);
     vstore4(convert_float4(red_blocks.sum) / (4 * OCTAVE), 0, values[1]);
     vstore4(convert_float4(blue_blocks.sum) / (4 * OCTAVE), 0, values[2]);
-    vstore4(convert_float4(light_blocks[i].across) / (2 * contrast) - 1, 0, values[3]);
-    vstore4(convert_float4(light_blocks[i].down) / (2 * contrast) - 1, 0, values[4]);
+    vstore4(convert_float4(light_blocks.across) / (2 * contrast) - 1, 0, values[3]);
+    vstore4(convert_float4(light_blocks.down) / (2 * contrast) - 1, 0, values[4]);
     vstore4(convert_float4(red_blocks.across + red_blocks.down + blue_blocks.across + blue_blocks.down) /
                 (2 * contrast),
             0, values[5]);

@@ -127,6 +127,17 @@ TEST_P(DeviceWindowsTest, anImageSmallerThanAWindowHasNone)
   EXPECT_EQ(1U, scores(omr::test::noiseImage({16, 16}), omr::defaultMarkerNetwork()).size());
 }
 
+TEST_P(DeviceWindowsTest, squaresThatCoincideWithCellsHaveAScore)
+{
+  cv::Mat image(64, 64, CV_8UC3);
+  for (int i = 0; i < 64 * 64; ++i)
+  {
+    image.at<cv::Vec3b>(i / 64, i % 64) = cv::Vec3b::all((i / 64 / 4 + i % 64 / 4) % 2 == 0 ? 30 : 220);
+  }
+  expectSameScores(image, anyNetwork(8));
+  EXPECT_NE(-1, scores(image, anyNetwork(8)).front()[0]);
+}
+
 TEST_P(DeviceWindowsTest, aPlainWindowHasNoScore)
 {
   for (const MarkerScores& score : scores(cv::Mat(64, 64, CV_8UC3, cv::Scalar(90, 120, 80)), anyNetwork(8)))

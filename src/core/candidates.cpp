@@ -10,7 +10,7 @@ namespace omr
 namespace
 {
 /** Windows that a candidate needs at least. */
-constexpr std::array<int, MARKER_KINDS> LEAST_WINDOWS = {1, 1};
+constexpr std::array<int, MARKER_KINDS> LEAST_WINDOWS = {3, 2};
 
 /** Boxes that share more than this of the smaller one are one candidate. */
 constexpr double SAME = .5;

@@ -59,20 +59,28 @@ Block blockOf(const Plane& plane, int row, int col)
   return {a + b + c + d, std::abs(a - b) + std::abs(c - d), std::abs(a - c) + std::abs(b - d)};
 }
 
-/** Whether each quarter of the window has contrast. */
+/** Whether each quarter of the window has contrast. All its neighbours count: squares may coincide with the blocks. */
 bool hasContrast(const Plane& light)
 {
-  for (int quarter = 0; quarter < 4; ++quarter)
+  constexpr int HALF = WINDOW_CELLS / 2;
+  constexpr int PAIRS = 2 * HALF * (HALF - 1);
+  for (int top = 0; top < WINDOW_CELLS; top += HALF)
   {
-    int contrast = 0;
-    for (int i = 0; i < 4; ++i)
+    for (int left = 0; left < WINDOW_CELLS; left += HALF)
     {
-      const Block block = blockOf(light, quarter / 2 * 2 + i / 2, quarter % 2 * 2 + i % 2);
-      contrast += block.across + block.down;
-    }
-    if (contrast < LEAST_CONTRAST * 16)
-    {
-      return false;
+      int contrast = 0;
+      for (int i = 0; i < HALF; ++i)
+      {
+        for (int j = 1; j < HALF; ++j)
+        {
+          contrast += std::abs(light[top + i][left + j] - light[top + i][left + j - 1]);
+          contrast += std::abs(light[top + j][left + i] - light[top + j - 1][left + i]);
+        }
+      }
+      if (contrast < LEAST_CONTRAST * PAIRS)
+      {
+        return false;
+      }
     }
   }
   return true;

@@ -27,9 +27,8 @@ void writeUnits(std::ostream& stream, const float*& weights, int units, int inpu
 }
 }  // namespace
 
-cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int epochs, unsigned seed)
+cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int epochs)
 {
-  cv::setRNGSeed(static_cast<int>(seed));  // the weights that training starts with
   cv::Mat answers(windows.features.rows, MARKER_KINDS, CV_32FC1, cv::Scalar(-1));
   for (int i = 0; i < answers.rows; ++i)
   {

@@ -10,12 +10,12 @@
 namespace omr
 {
 /**
- * Trains OpenCV's network by stochastic gradient descent, with steps that shrink from pass to pass. Equal windows and
- * seeds give equal networks.
+ * Trains OpenCV's network by stochastic gradient descent, with steps that shrink from pass to pass. Equal windows
+ * give equal networks: OpenCV starts from weights of its own seed.
  *
  * @param epochs passes over the windows.
  */
-cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int epochs, unsigned seed);
+cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int epochs);
 
 /** The same network, its scales of the inputs folded into the weights. @param thresholds of it. */
 MarkerNetwork toMarkerNetwork(const cv::ml::ANN_MLP& trained, const MarkerScores& thresholds);

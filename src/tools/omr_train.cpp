@@ -162,7 +162,7 @@ cv::Ptr<cv::ml::ANN_MLP> train(const Options& options, const std::vector<cv::Mat
   omr::WindowSet windows = sceneWindows(photographs, options.scenes, 4 * options.seed, some);
   windows.append(photographWindows(photographs, 4 * options.seed + 1, some));
   printCounts("training", windows);
-  cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows, options.hidden, options.epochs, options.seed);
+  cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows, options.hidden, options.epochs);
   for (int round = 1; round < options.rounds; ++round)
   {
     const omr::MarkerNetwork network = omr::toMarkerNetwork(*trained, {});
@@ -176,7 +176,7 @@ cv::Ptr<cv::ml::ANN_MLP> train(const Options& options, const std::vector<cv::Mat
                                        return std::max(scores[0], scores[1]) > HARD_SCORE;
                                      }));
     printCounts("with hard clutter", windows);
-    trained = omr::trainNetwork(windows, options.hidden, options.epochs, options.seed);
+    trained = omr::trainNetwork(windows, options.hidden, options.epochs);
   }
   return trained;
 }

@@ -1,0 +1,145 @@
+#include "outdoor_omr/marker_network.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "network_training.h"
+
+using omr::HAAR_FEATURES;
+using omr::MarkerKind;
+using omr::MarkerNetwork;
+using omr::WindowLabel;
+
+namespace
+{
+/** Windows in which two features tell the kind. */
+omr::WindowSet windowsToLearn()
+{
+  omr::WindowSet windows;
+  cv::RNG random(5);
+  for (int i = 0; i < 3000; ++i)
+  {
+    std::vector<float> features(HAAR_FEATURES);
+    for (float& feature : features)
+    {
+      feature = static_cast<float>(random.gaussian(1) + .5);
+    }
+    const WindowLabel label = static_cast<WindowLabel>(i % 3);
+    features[7] += label == WindowLabel::checkerboard ? 8.F : 0.F;
+    features[90] -= label == WindowLabel::target ? 8.F : 0.F;
+    windows.append(features.data(), label);
+  }
+  return windows;
+}
+
+std::string temporaryFile(const std::string& text)
+{
+  const std::string name = testing::TempDir() + "marker_network.yaml";
+  std::ofstream(name) << text;
+  return name;
+}
+
+std::string textOf(const MarkerNetwork& network)
+{
+  std::ostringstream text;
+  omr::writeMarkerNetwork(text, network);
+  return text.str();
+}
+
+/** A network of two units. */
+std::string smallNetwork()
+{
+  MarkerNetwork network;
+  network.hidden = 2;
+  network.thresholds = {.25F, -.5F};
+  network.weights.assign(2 * (HAAR_FEATURES + 1) + 2 * 3, .5F);
+  return textOf(network);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+  return text.replace(text.find(what), what.size(), by);
+}
+
+void expectRefused(const std::string& text, const std::string& words)
+{
+  try
+  {
+    omr::loadMarkerNetwork(temporaryFile(text));
+    FAIL() << "accepted, expected: " << words;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find(words)) << error.what();
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("marker_network.yaml:")) << error.what();
+  }
+}
+}  // namespace
+
+TEST(MarkerNetwork, givesWhatTheNetworkOfOpenCvGives)
+{
+  const omr::WindowSet windows = windowsToLearn();
+  const cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows, 9, 3);
+  const MarkerNetwork network = omr::toMarkerNetwork(*trained, {});
+  cv::Mat expected;
+  trained->predict(windows.features, expected);
+  int right = 0;
+  for (int i = 0; i < windows.features.rows; ++i)
+  {
+    const omr::MarkerScores scores = omr::markerScores(network, windows.features.ptr<float>(i));
+    ASSERT_NEAR(expected.at<float>(i, 0), scores[0], 1e-5);
+    ASSERT_NEAR(expected.at<float>(i, 1), scores[1], 1e-5);
+    right += static_cast<int>((scores[0] > 0) == (windows.labels[i] == WindowLabel::checkerboard) &&
+                              (scores[1] > 0) == (windows.labels[i] == WindowLabel::target));
+  }
+  EXPECT_GT(right, 2950) << "of 3000";
+}
+
+TEST(MarkerNetwork, equalWindowsGiveEqualNetworks)
+{
+  const omr::WindowSet windows = windowsToLearn();
+  const auto trained = [&] { return omr::toMarkerNetwork(*omr::trainNetwork(windows, 4, 1), {}).weights; };
+  EXPECT_EQ(trained(), trained());
+}
+
+TEST(MarkerNetwork, readsWhatIsWritten)
+{
+  const MarkerNetwork network = omr::toMarkerNetwork(*omr::trainNetwork(windowsToLearn(), 5, 1), {.75F, .125F});
+  const MarkerNetwork read = omr::loadMarkerNetwork(temporaryFile("# a comment\n" + textOf(network)));
+  EXPECT_EQ(network.hidden, read.hidden);
+  EXPECT_EQ(network.thresholds, read.thresholds);
+  ASSERT_EQ(network.weights.size(), read.weights.size());
+  for (std::size_t i = 0; i < network.weights.size(); ++i)
+  {
+    EXPECT_NEAR(network.weights[i], read.weights[i], 1e-4 * std::abs(network.weights[i]));
+  }
+}
+
+TEST(MarkerNetwork, refusesWhatIsNone)
+{
+  EXPECT_THROW(omr::loadMarkerNetwork("/nonexistent/network.yaml"), std::runtime_error);
+  expectRefused("", "expected a map");
+  expectRefused("[1, 2]", "expected a map");
+  expectRefused("thresholds: [", "not valid yaml");
+  expectRefused(replaced(smallNetwork(), "target: -0.5", "target: 2"), "thresholds.target");
+  expectRefused(replaced(smallNetwork(), "target: -0.5", "target: high"), "thresholds.target");
+  expectRefused(replaced(smallNetwork(), "hidden_units", "hidden"), "there is no key 'hidden'");
+  expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5"), "hidden_units[0]");
+  expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5, .nan"), "hidden_units[0]");
+  expectRefused("thresholds: {checkerboard: 0, target: 0}\nhidden_units: []\noutput_units: []\n", "hidden_units");
+}
+
+TEST(MarkerNetwork, theDefaultOneFits)
+{
+  const MarkerNetwork& network = omr::defaultMarkerNetwork();
+  EXPECT_EQ(static_cast<std::size_t>(network.hidden * (HAAR_FEATURES + 1) + 2 * (network.hidden + 1)),
+            network.weights.size());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

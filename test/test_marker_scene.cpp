@@ -1,0 +1,106 @@
+#include "marker_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "classification.h"
+#include "compare.h"
+#include "training_windows.h"
+
+using omr::MarkerKind;
+using omr::PlacedMarker;
+using omr::WindowLabel;
+
+namespace
+{
+PlacedMarker board(double square, const cv::Point2d& corner)
+{
+  PlacedMarker marker;
+  marker.kind = MarkerKind::checkerboard;
+  marker.squares = {9, 7};
+  marker.to_pixels = cv::Matx33d(square, 0, corner.x, 0, square, corner.y, 0, 0, 1);
+  return marker;
+}
+
+PlacedMarker target(double ring, const cv::Point2d& center)
+{
+  PlacedMarker marker;
+  marker.kind = MarkerKind::target;
+  marker.colors = "WPRGB";
+  marker.to_pixels = cv::Matx33d(ring, 0, center.x, 0, ring, center.y, 0, 0, 1);
+  return marker;
+}
+}  // namespace
+
+TEST(MarkerScene, equalSeedsGiveEqualScenesWithMarkersInside)
+{
+  const cv::Mat background = omr::test::noiseImage({200, 150});
+  for (int seed = 1; seed <= 20; ++seed)
+  {
+    cv::RNG random(seed);
+    cv::RNG again(seed);
+    const omr::MarkerScene scene = omr::renderMarkerScene(background, random);
+    EXPECT_TRUE(omr::test::equal(scene.image, omr::renderMarkerScene(background, again).image));
+    EXPECT_EQ(CV_8UC3, scene.image.type());
+    for (const PlacedMarker& marker : scene.markers)
+    {
+      const cv::Vec3d origin =
+          marker.to_pixels * (marker.kind == MarkerKind::target
+                                  ? cv::Vec3d(0, 0, 1)
+                                  : cv::Vec3d(marker.squares.width / 2., marker.squares.height / 2., 1));
+      const cv::Point2d center(origin[0] / origin[2], origin[1] / origin[2]);
+      EXPECT_TRUE(cv::Rect2d({}, scene.image.size()).contains(center)) << "seed " << seed;
+    }
+  }
+}
+
+TEST(TrainingWindows, aWindowOnABoardShowsItWhereTheSquaresSuitTheLevel)
+{
+  const std::vector<PlacedMarker> markers = {board(4, {100, 100})};
+  EXPECT_EQ(WindowLabel::checkerboard, omr::labelOf({108, 108, 16, 16}, 0, markers));
+  EXPECT_EQ(WindowLabel::partly, omr::labelOf({104, 100, 32, 32}, 1, markers)) << "squares of one cell";
+  EXPECT_EQ(WindowLabel::partly, omr::labelOf({90, 100, 16, 16}, 0, markers)) << "half of it beside the board";
+  EXPECT_EQ(WindowLabel::clutter, omr::labelOf({60, 100, 16, 16}, 0, markers));
+}
+
+TEST(TrainingWindows, aWindowAroundTheCentreShowsATarget)
+{
+  const std::vector<PlacedMarker> markers = {target(3, {100, 100})};
+  EXPECT_EQ(WindowLabel::target, omr::labelOf({92, 92, 16, 16}, 0, markers));
+  EXPECT_EQ(WindowLabel::target, omr::labelOf({94, 93, 16, 16}, 0, markers));
+  EXPECT_EQ(WindowLabel::partly, omr::labelOf({98, 92, 16, 16}, 0, markers)) << "beside the centre";
+  EXPECT_EQ(WindowLabel::partly, omr::labelOf({68, 68, 64, 64}, 2, markers)) << "rings of less than half a cell";
+}
+
+TEST(Classification, theCurveCountsWhatIsAboveTheThreshold)
+{
+  omr::ScoreCounts counts;
+  for (const float score : {-.9F, .3F, .6F, .9F})
+  {
+    counts.add(WindowLabel::checkerboard, {score, -1});
+    counts.add(WindowLabel::clutter, {score - .5F, -1});
+  }
+  omr::WindowSet plain;
+  plain.plain_clutter = 4;
+  plain.plain_markers = {1, 0};
+  counts.addPlain(plain);
+  EXPECT_EQ(5, counts.count(WindowLabel::checkerboard));
+  EXPECT_EQ(8, counts.count(WindowLabel::clutter));
+  for (const omr::Classification& at : counts.curve(MarkerKind::checkerboard))
+  {
+    if (std::abs(at.threshold - .2) < 6e-4)
+    {
+      EXPECT_DOUBLE_EQ(.6, at.recall);
+      EXPECT_DOUBLE_EQ(.125, at.false_rate);
+      EXPECT_DOUBLE_EQ((.6 + .875) / 2, at.accuracy());
+      EXPECT_DOUBLE_EQ(.6 / .725, at.precision());
+      return;
+    }
+  }
+  FAIL() << "no threshold near .2";
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
