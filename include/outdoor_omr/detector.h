@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "outdoor_omr/fill_pipeline.h"
+#include "outdoor_omr/frame.h"
 #include "outdoor_omr/marker_network.h"
 #include "outdoor_omr/markers.h"
 #include "outdoor_omr/region.h"
@@ -37,7 +38,7 @@ class Detector
   const FillPipeline& pipeline() const;
 
  private:
-  Markers findMarkers(const cv::Mat& bgr, const RegionMap& regions, const Settings& settings,
+  Markers findMarkers(const Frame& frame, const RegionMap& regions, const Settings& settings,
                       std::vector<StepTime>& times) const;
 
   FillPipeline pipeline_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vectorized.h"
+
 namespace omr
 {
 namespace
@@ -51,6 +53,49 @@ float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern,
   const float variance = (squares - sum * sum / N) * (pattern_squares - pattern_sum * pattern_sum / N);
   return variance > 1e-4F ? (product - sum * pattern_sum / N) / std::sqrt(variance) : 0.F;
 }
+
+/** Where the samples of a ring lie on the level [px]. */
+struct RingPlaces
+{
+  std::array<float, RING_SAMPLES> x, y;
+};
+
+/** sampleGrey() of all samples. */
+OMR_VECTORIZED void sampleAll(const cv::Mat& grey, const RingPlaces& places, Ring& ring)
+{
+  const float last_x = static_cast<float>(grey.cols) - 1.001F;
+  const float last_y = static_cast<float>(grey.rows) - 1.001F;
+  const auto step = static_cast<int>(grey.step[0]);
+  std::array<int, RING_SAMPLES> offset;
+  RingPlaces share;
+  for (int i = 0; i < RING_SAMPLES; ++i)
+  {
+    const float x = std::min(std::max(places.x[i], 0.F), last_x);
+    const float y = std::min(std::max(places.y[i], 0.F), last_y);
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    share.x[i] = x - static_cast<float>(column);
+    share.y[i] = y - static_cast<float>(row);
+    offset[i] = row * step + column;
+  }
+  std::array<std::array<int, RING_SAMPLES>, 4> pixels;
+  for (int i = 0; i < RING_SAMPLES; ++i)
+  {
+    const uchar* above = grey.data + offset[i];
+    const uchar* below = above + step;
+    pixels[0][i] = above[0];
+    pixels[1][i] = above[1];
+    pixels[2][i] = below[0];
+    pixels[3][i] = below[1];
+  }
+  for (int i = 0; i < RING_SAMPLES; ++i)
+  {
+    const float a = share.x[i];
+    const float b = share.y[i];
+    ring[i] = (static_cast<float>(pixels[0][i]) * (1 - a) + static_cast<float>(pixels[1][i]) * a) * (1 - b) +
+              (static_cast<float>(pixels[2][i]) * (1 - a) + static_cast<float>(pixels[3][i]) * a) * b;
+  }
+}
 }  // namespace
 
 PyramidView::PyramidView(const Frame& frame, float square_height)
@@ -83,17 +128,23 @@ Ring sampleRing(const PyramidView& view, const LocalFrame& frame, float inner_ra
     u[i] = std::max(ANGLES[i / 2][0] * radius, least_u);
     v[i] = std::max(ANGLES[i / 2][1] * radius, least_v);
   }
-  Ring ring;
+  RingPlaces places;
+  const auto place = [&](int i, const cv::Point2f& point) {
+    places.x[i] = point.x * view.scale;
+    places.y[i] = point.y * view.scale;
+  };
   for (int i = 0; i < QUADRANT_SAMPLES; ++i)
   {
     // Opposite quadrants mirror each other at the node.
     const cv::Point2f same = u[i] * frame.u + v[i] * frame.v;
     const cv::Point2f other = u[i] * frame.u - v[i] * frame.v;
-    ring[i] = view.sample(frame.node + same);
-    ring[QUADRANT_SAMPLES + i] = view.sample(frame.node - other);
-    ring[2 * QUADRANT_SAMPLES + i] = view.sample(frame.node - same);
-    ring[3 * QUADRANT_SAMPLES + i] = view.sample(frame.node + other);
+    place(i, frame.node + same);
+    place(QUADRANT_SAMPLES + i, frame.node - other);
+    place(2 * QUADRANT_SAMPLES + i, frame.node - same);
+    place(3 * QUADRANT_SAMPLES + i, frame.node + other);
   }
+  Ring ring;
+  sampleAll(*view.grey, places, ring);
   return ring;
 }
 

@@ -45,13 +45,11 @@ void Detector::setNetwork(const MarkerNetwork& network)
   network_ = network;
 }
 
-Markers Detector::findMarkers(const cv::Mat& bgr, const RegionMap& regions, const Settings& settings,
+Markers Detector::findMarkers(const Frame& frame, const RegionMap& regions, const Settings& settings,
                               std::vector<StepTime>& times) const
 {
   Markers markers;
   StopWatch watch(times);
-  const Frame frame = makeFrame(bgr);
-  watch.step("pyramid");
   TargetSearch targets(frame, regions, settings);
   std::future<void> ahead;
   if (settings.detect_checkerboards && settings.detect_targets)
@@ -84,8 +82,12 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   outputs.edges = outputs.labels = settings.overlay_regions;
   outputs.network = candidates ? &network_ : nullptr;
   outputs.window_scores = &window_scores_;
+  std::future<Frame> pyramid = std::async([&bgr] { return makeFrame(bgr); });
   pipeline_.run(bgr, settings, outputs, regions_, &times);
-  Markers markers = findMarkers(bgr, regions_, settings, times);
+  StopWatch pyramid_watch(times);
+  const Frame frame = pyramid.get();
+  pyramid_watch.step("pyramid");
+  Markers markers = findMarkers(frame, regions_, settings, times);
   if (candidates)
   {
     StopWatch watch(times);
@@ -94,7 +96,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     const auto detect = [&](const cv::Mat& enlarged) {
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
       pipeline_.run(enlarged, settings, {}, enlarged_regions_);
-      return findMarkers(enlarged, enlarged_regions_, settings, own_times);
+      return findMarkers(makeFrame(enlarged), enlarged_regions_, settings, own_times);
     };
     lookAgain(bgr, settings.candidate_looks, detect, markers);
     watch.step("second look");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <opencv2/core/hal/intrin.hpp>
 
 #include "vectorized.h"
 
@@ -15,29 +14,25 @@ constexpr int HALO = 3;  // two pixels for the 5x5 kernels, one for the comparis
 constexpr int SIDE = GradientTile::SIDE;
 constexpr int PIXELS = GradientTile::PIXELS + 2 * HALO;
 constexpr int CHANNELS = 3;
-constexpr int LANES = 16;
 
 /** One channel of the tile's pixels, replicated beyond the borders. */
 using Plane = std::array<std::array<std::int16_t, PIXELS>, PIXELS>;
 
-void splitRow(const uchar* row, std::int16_t* blue, std::int16_t* green, std::int16_t* red)
+/** @param rows the first pixels of the tile's rows. */
+OMR_VECTORIZED void splitRows(const std::array<const uchar*, PIXELS>& rows, std::array<Plane, CHANNELS>& planes)
 {
-  const auto store = [](std::int16_t* channel, const cv::v_uint8x16& values) {
-    cv::v_uint16x8 low;
-    cv::v_uint16x8 high;
-    cv::v_expand(values, low, high);
-    cv::v_store(channel, cv::v_reinterpret_as_s16(low));
-    cv::v_store(channel + LANES / 2, cv::v_reinterpret_as_s16(high));
-  };
-  for (const int first : {0, LANES, PIXELS - LANES})
+  for (int i = 0; i < PIXELS; ++i)
   {
-    cv::v_uint8x16 b;
-    cv::v_uint8x16 g;
-    cv::v_uint8x16 r;
-    cv::v_load_deinterleave(row + CHANNELS * first, b, g, r);
-    store(blue + first, b);
-    store(green + first, g);
-    store(red + first, r);
+    const uchar* __restrict row = rows[i];
+    std::int16_t* __restrict blue = planes[0][i].data();
+    std::int16_t* __restrict green = planes[1][i].data();
+    std::int16_t* __restrict red = planes[2][i].data();
+    for (int j = 0; j < PIXELS; ++j)
+    {
+      blue[j] = row[CHANNELS * j];
+      green[j] = row[CHANNELS * j + 1];
+      red[j] = row[CHANNELS * j + 2];
+    }
   }
 }
 
@@ -45,17 +40,18 @@ void readPixels(const cv::Mat& bgr, int left, int top, std::array<Plane, CHANNEL
 {
   const int x0 = left - HALO;
   const bool is_inside = x0 >= 0 && x0 + PIXELS <= bgr.cols;
-  std::array<uchar, CHANNELS * PIXELS> replicated;
+  std::array<std::array<uchar, CHANNELS * PIXELS>, PIXELS> replicated;
+  std::array<const uchar*, PIXELS> rows;
   for (int i = 0; i < PIXELS; ++i)
   {
     const auto* row = bgr.ptr<uchar>(std::clamp(top - HALO + i, 0, bgr.rows - 1));
     for (int j = 0; j < PIXELS && !is_inside; ++j)
     {
-      std::copy_n(row + CHANNELS * std::clamp(x0 + j, 0, bgr.cols - 1), CHANNELS, replicated.data() + CHANNELS * j);
+      std::copy_n(row + CHANNELS * std::clamp(x0 + j, 0, bgr.cols - 1), CHANNELS, &replicated[i][CHANNELS * j]);
     }
-    splitRow(is_inside ? row + CHANNELS * x0 : replicated.data(), planes[0][i].data(), planes[1][i].data(),
-             planes[2][i].data());
+    rows[i] = is_inside ? row + CHANNELS * x0 : replicated[i].data();
   }
+  splitRows(rows, planes);
 }
 
 /** Gradient of one channel: Sobel and Gaussian in one, separable 5x5 kernels. */

@@ -76,12 +76,12 @@ AngleBins binsAt(float degrees, double radius)
 {
   const double angle = degrees * (ANGLE_BINS / 360.);
   const double half = .6 / std::max(.6, radius) * (ANGLE_BINS / (2 * CV_PI));
-  AngleBins bins = 0;
-  for (int bin = static_cast<int>(std::floor(angle - half)); bin <= std::floor(angle + half); ++bin)
-  {
-    bins |= AngleBins{1} << ((bin + 2 * ANGLE_BINS) % ANGLE_BINS);
-  }
-  return bins;
+  // Shifted by a turn, so that conversion rounds down.
+  const int first = static_cast<int>(angle - half + ANGLE_BINS);
+  const int last = static_cast<int>(angle + half + ANGLE_BINS);
+  const AngleBins run = (AngleBins{2} << (last - first)) - 1;
+  const int turn = first % ANGLE_BINS;
+  return turn == 0 ? run : run << turn | run >> (ANGLE_BINS - turn);
 }
 
 int count(AngleBins bins)
