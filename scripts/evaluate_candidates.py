@@ -44,7 +44,7 @@ def true_markers(picture):
 
 
 def detect(folder, names, arguments, jsonl):
-    command = ['omr_detect', '--json', jsonl, '--set', 'candidate_mode=on']
+    command = ['omr_detect', '--json', jsonl, '--set', 'candidate_mode=all']
     if arguments.network:
         command += ['--network', arguments.network]
     for assignment in arguments.set:

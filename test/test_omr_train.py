@@ -47,7 +47,7 @@ class TrainTest(unittest.TestCase):
         with open(first) as stream:
             self.assertTrue(stream.readline().startswith('# omr_train --scenes 4'))
         photograph = os.path.join(self.photographs, 'site', '0.png')
-        read = run(DETECT, '--network', first, '--set', 'candidate_mode=on', photograph)
+        read = run(DETECT, '--network', first, '--set', 'candidate_mode=all', photograph)
         self.assertEqual(0, read.returncode, read.stderr)
 
     def test_leaves_out_what_is_no_photograph_and_says_so(self):

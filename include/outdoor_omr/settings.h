@@ -31,8 +31,8 @@ enum class FillMethod
 /** What becomes of the preliminary detection (paper, section 4.5). */
 enum class CandidateMode
 {
-  off,
-  on,          ///< candidates are reported; those not read get a second look
+  none,
+  all,         ///< candidates are reported; those not read get a second look
   second_look  ///< only the second look; candidates are not reported
 };
 

@@ -76,7 +76,7 @@ Markers Detector::findMarkers(const Frame& frame, const RegionMap& regions, cons
 Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
 {
   settings.check();
-  const bool candidates = settings.candidate_mode != CandidateMode::off;
+  const bool candidates = settings.candidate_mode != CandidateMode::none;
   std::vector<StepTime> times;
   FillPipeline::Outputs outputs;
   outputs.edges = outputs.labels = settings.overlay_regions;

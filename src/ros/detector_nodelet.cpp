@@ -131,7 +131,7 @@ class DetectorNodelet : public CheckedNodelet
     const Markers markers = detector_->detect(bgr, settings);
     publish(checkerboards_, toMessage(image->header, bgr.size(), markers.checkerboards));
     publish(targets_, toMessage(image->header, bgr.size(), markers.targets));
-    if (settings.candidate_mode == CandidateMode::on)
+    if (settings.candidate_mode == CandidateMode::all)
     {
       publish(candidates_, toMessage(image->header, bgr.size(), markers.candidates));
       publish(region_of_interest_, unreadRegion(bgr.size(), markers.candidates));

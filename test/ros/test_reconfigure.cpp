@@ -84,8 +84,8 @@ const std::map<std::string, Move> MOVES = {
     {"checkerboard_looks", {"0", true, {}}},
     {"detect_targets", {"false", true, {}}},
     {"target_min_rings", {"9", true, {}}},
-    {"candidate_mode", {"on", true, {}}},
-    {"candidate_looks", {"0", false, {{"candidate_mode", "on"}}}},  // all of its candidates are read already
+    {"candidate_mode", {"all", true, {}}},
+    {"candidate_looks", {"0", false, {{"candidate_mode", "all"}}}},  // all of its candidates are read already
     {"overlay_regions", {"true", true, {}}},
 };
 
