@@ -88,7 +88,7 @@ OMR_VECTORIZED void markMaxima(const std::int16_t* __restrict response, const st
   }
 }
 
-/** Calls the action for every x with a mark. @param marks 0 or 1, in whole words */
+/** Calls the action for every x with a mark, on little-endian machines. @param marks 0 or 1, in whole words */
 template <typename Action>
 void forEachMark(const std::vector<uchar>& marks, const Action& action)
 {
