@@ -15,7 +15,7 @@ struct Candidate
 {
   cv::Rect box;  ///< covers most of the marker [px]
   MarkerKind kind = MarkerKind::checkerboard;
-  float score = 0;    ///< largest of its windows, threshold of the network to 1
+  float score = -1;   ///< largest of its windows, threshold of the network to 1
   int cell = 0;       ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
   int windows = 0;    ///< number of its windows
   bool read = false;  ///< a checkerboard or target was found there

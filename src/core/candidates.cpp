@@ -124,6 +124,7 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
   }
   clusters = merge(merge(std::move(clusters)));  // a box that grew may have reached another one
   std::vector<Candidate> candidates;
+  candidates.reserve(clusters.size());
   for (const Cluster& cluster : clusters)
   {
     candidates.push_back(cluster.candidate);
