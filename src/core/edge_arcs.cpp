@@ -11,6 +11,8 @@ namespace
 constexpr float MIN_COSINE = .85F;     // between the normals of neighbours along an edge
 constexpr float MAX_ACROSS = .8F;      // of a step, off the tangent [px]
 constexpr float MIN_ALONG = .3F;       // of a step [px]
+constexpr int PADDING = 2;             // around the image; a step over a gap is as long at most [px]
+constexpr std::size_t FIRM_CHAIN = 3;  // edgels on one side: from so many on, a gap is crossed
 constexpr std::size_t MIN_CHAIN = 10;  // edgels
 constexpr std::size_t MIN_ARC = 7;     // edgels
 constexpr std::size_t MAX_ARC = 60;    // edgels; what has not turned by then is straight
@@ -30,11 +32,12 @@ struct Link
 class Tracer
 {
  public:
-  Tracer(EdgelMap& map, const cv::Size& size) : index_(cv::Mat1i::zeros(size))
+  Tracer(EdgelMap& map, const cv::Size& size)
+      : index_(cv::Mat1i::zeros(size.height + 2 * PADDING, size.width + 2 * PADDING))
   {
     map.visit(0, 0, size.width - 1, size.height - 1, [&](const Edgel& edgel) {
       edgels_.push_back(edgel);
-      index_(cvRound(edgel.y), cvRound(edgel.x)) = static_cast<int>(edgels_.size());
+      cellOf(edgel) = static_cast<int>(edgels_.size());
     });
     visited_.assign(edgels_.size(), 0);
   }
@@ -50,8 +53,8 @@ class Tracer
       {
         continue;
       }
-      visited_[i] = 1;
       const Edgel& start = edgels_[i];
+      leave(start);
       forward.clear();
       chain.clear();
       follow(start, cv::Point2f(-start.ny, start.nx), forward);
@@ -67,12 +70,35 @@ class Tracer
   }
 
  private:
+  int& cellOf(const Edgel& edgel)
+  {
+    return index_(cvRound(edgel.y) + PADDING, cvRound(edgel.x) + PADDING);
+  }
+
+  /** An edgel is on one chain only. */
+  void leave(const Edgel& edgel)
+  {
+    const auto i = static_cast<int>(&edgel - edgels_.data());
+    visited_[i] = 1;
+    int& cell = cellOf(edgel);
+    cell = cell == i + 1 ? 0 : cell;
+  }
+
   void follow(const Edgel& start, cv::Point2f direction, std::vector<const Edgel*>& chain)
   {
     const Edgel* here = &start;
-    while (const Edgel* next = successor(*here, direction))
+    while (true)
     {
-      visited_[next - edgels_.data()] = 1;
+      const Edgel* next = successor(*here, direction, 1);
+      if (next == nullptr && chain.size() >= FIRM_CHAIN)
+      {
+        next = successor(*here, direction, PADDING);
+      }
+      if (next == nullptr)
+      {
+        return;
+      }
+      leave(*next);
       chain.push_back(next);
       const cv::Point2f tangent(-next->ny, next->nx);
       direction = tangent.dot(direction) > 0 ? tangent : -tangent;
@@ -80,48 +106,41 @@ class Tracer
     }
   }
 
-  /** The next edgel along the edge: in one of the neighbouring pixels ahead, else in one of those around them. */
-  const Edgel* successor(const Edgel& here, const cv::Point2f& direction) const
+  /** The next edgel along the edge: ahead in one of the pixels around. */
+  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, int reach) const
   {
-    const int x = cvRound(here.x);
-    const int y = cvRound(here.y);
-    for (int reach = 1; reach <= 2; ++reach)
+    const int* middle = &index_(cvRound(here.y) + PADDING, cvRound(here.x) + PADDING);
+    const auto stride = static_cast<std::ptrdiff_t>(index_.step1());
+    const Edgel* best = nullptr;
+    float best_cost = std::numeric_limits<float>::infinity();
+    for (int dy = -reach; dy <= reach; ++dy)
     {
-      const Edgel* best = nullptr;
-      float best_cost = std::numeric_limits<float>::infinity();
-      for (int row = std::max(0, y - reach); row <= std::min(index_.rows - 1, y + reach); ++row)
+      for (int dx = -reach; dx <= reach; ++dx)
       {
-        for (int col = std::max(0, x - reach); col <= std::min(index_.cols - 1, x + reach); ++col)
+        const float ahead = static_cast<float>(dx) * direction.x + static_cast<float>(dy) * direction.y;
+        const int cell = middle[dy * stride + dx];
+        if (cell == 0 || ahead <= 0)
         {
-          const float ahead = static_cast<float>(col - x) * direction.x + static_cast<float>(row - y) * direction.y;
-          const int cell = ahead > 0 ? index_(row, col) : 0;
-          if (cell == 0 || visited_[cell - 1] != 0)
-          {
-            continue;
-          }
-          const Edgel& edgel = edgels_[cell - 1];
-          const float step_x = edgel.x - here.x;
-          const float step_y = edgel.y - here.y;
-          const float along = step_x * direction.x + step_y * direction.y;
-          const float across = std::abs(step_x * here.nx + step_y * here.ny);
-          const float cost = across + .5F * along;
-          if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
-              std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
-          {
-            best_cost = cost;
-            best = &edgel;
-          }
+          continue;
+        }
+        const Edgel& edgel = edgels_[cell - 1];
+        const float step_x = edgel.x - here.x;
+        const float step_y = edgel.y - here.y;
+        const float along = step_x * direction.x + step_y * direction.y;
+        const float across = std::abs(step_x * here.nx + step_y * here.ny);
+        const float cost = across + .5F * along;
+        if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
+            std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
+        {
+          best_cost = cost;
+          best = &edgel;
         }
       }
-      if (best != nullptr)
-      {
-        return best;
-      }
     }
-    return nullptr;
+    return best;
   }
 
-  cv::Mat1i index_;  // of the edgel in each pixel, from 1
+  cv::Mat1i index_;  // of the edgel in each pixel that is on no chain yet, from 1; with a border
   std::vector<Edgel> edgels_;
   std::vector<char> visited_;
 };
