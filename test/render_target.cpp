@@ -7,6 +7,7 @@
 namespace
 {
 constexpr int SUPERSAMPLING = 4;
+const cv::Vec3d SKIN = {.2, .35, .6};
 
 cv::Vec3d reflectance(char letter)
 {
@@ -38,7 +39,11 @@ cv::Vec3d surface(const TargetScene& scene, const cv::Point2d& q, cv::RNG& rando
   const double r = std::hypot(q.x, q.y);
   if (scene.occluder > 0 && q.x > scene.radii.back() * (1 - 2 * scene.occluder))
   {
-    return {.2, .35, .6};
+    return SKIN;
+  }
+  if (std::hypot(q.x - scene.cover_offset.x, q.y - scene.cover_offset.y) < scene.cover)
+  {
+    return SKIN;
   }
   for (std::size_t k = 0; k < scene.radii.size(); ++k)
   {
@@ -80,7 +85,11 @@ cv::Mat renderTarget(const TargetScene& scene)
       const cv::Vec3d q = inverse * cv::Vec3d(p.x, p.y, 1);
       double light = scene.light * (1 + scene.gradient * (p.x / scene.size.width - .5));
       light *= (p.x - center.x - scene.shadow_offset) + .4 * (p.y - center.y) > 0 ? scene.shadow : 1;
-      const cv::Vec3d color = surface(scene, cv::Point2d(q[0] / q[2], q[1] / q[2]), random).mul(scene.tint) * light;
+      const cv::Point2d from_gloss = p - center - scene.gloss_offset;
+      const double added = scene.veil + scene.gloss * std::exp(-from_gloss.dot(from_gloss) /
+                                                               (2 * scene.gloss_radius * scene.gloss_radius));
+      const cv::Vec3d color =
+          surface(scene, cv::Point2d(q[0] / q[2], q[1] / q[2]), random).mul(scene.tint) * light + cv::Vec3d::all(added);
       fine.at<cv::Vec3f>(y, x) = cv::Vec3f(color);
     }
   }

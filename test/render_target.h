@@ -12,17 +12,23 @@ struct TargetScene
   std::string colors = "RWPGB";                       ///< W P R G B, from the inside out
   std::vector<double> radii = {20, 40, 60, 80, 100};  ///< on the plane, of each ring's outer boundary [px]
   cv::Matx33d homography = cv::Matx33d(1, 0, 240, 0, 1, 180, 0, 0, 1);  ///< plane, origin in the centre, to image
-  double sheet_half_side = 130;      ///< of the square white sheet on the plane; 0: none
-  cv::Vec3d ground = {.3, .3, .32};  ///< reflectance around (blue, green, red)
-  double texture = 0;                ///< deviation of the ground's reflectance, relative
-  double light = .9;                 ///< on a white surface, linear, 1 saturates
-  double gradient = 0;               ///< relative change of the light over the image's width
-  cv::Vec3d tint = {1, 1, 1};        ///< of the light (blue, green, red)
-  double shadow = 1;                 ///< factor of the light right of the oblique line through the centre
-  double shadow_offset = 0;          ///< moves that line to the right [px]
-  double occluder = 0;               ///< a skin-coloured half-plane over this share of the outer radius
-  double blur = .7;                  ///< deviation of the lens' point spread [px]
-  double noise = 1.5;                ///< deviation of the grey levels
+  double sheet_half_side = 130;       ///< of the square white sheet on the plane; 0: none
+  cv::Vec3d ground = {.3, .3, .32};   ///< reflectance around (blue, green, red)
+  double texture = 0;                 ///< deviation of the ground's reflectance, relative
+  double light = .9;                  ///< on a white surface, linear, 1 saturates
+  double gradient = 0;                ///< relative change of the light over the image's width
+  cv::Vec3d tint = {1, 1, 1};         ///< of the light (blue, green, red)
+  double shadow = 1;                  ///< factor of the light right of the oblique line through the centre
+  double shadow_offset = 0;           ///< moves that line to the right [px]
+  double occluder = 0;                ///< a skin-coloured half-plane over this share of the outer radius
+  double cover = 0;                   ///< radius of a skin-coloured disk that lies on the plane [px]
+  cv::Point2d cover_offset = {0, 0};  ///< of its centre on the plane [px]
+  double gloss = 0;                   ///< light added where it is strongest, linear
+  double gloss_radius = 30;           ///< deviation of it [px]
+  cv::Point2d gloss_offset = {0, 0};  ///< of its place from the centre [px]
+  double veil = 0;                    ///< light added everywhere, linear
+  double blur = .7;                   ///< deviation of the lens' point spread [px]
+  double noise = 1.5;                 ///< deviation of the grey levels
   unsigned seed = 1;
 };
 

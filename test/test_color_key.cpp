@@ -7,6 +7,8 @@ using omr::readColorKey;
 
 namespace
 {
+using Ways = std::vector<std::vector<LinearColor>>;
+
 const LinearColor WHITE(.8, .8, .8);
 const LinearColor BLACK(.055, .055, .055);
 const LinearColor RED(.53, .05, .05);
@@ -75,6 +77,40 @@ TEST(ColorKey, linearLightInvertsSrgb)
   EXPECT_DOUBLE_EQ(0, omr::linearLight(0));
   EXPECT_DOUBLE_EQ(1, omr::linearLight(255));
   EXPECT_NEAR(.2159, omr::linearLight(128), 1e-3);
+}
+
+TEST(ColorKey, aShadowOnSomeRingsAloneIsBrightnessNotHue)
+{
+  EXPECT_EQ("WPWBG", readColorKey({WHITE, BLACK, WHITE, BLUE * .6, GREEN * .5}, WHITE));
+  EXPECT_EQ("GWPBG", readColorKey({GREEN * .5, WHITE, BLACK, BLUE, GREEN}, WHITE));
+}
+
+TEST(ColorKey, throughAThickHaze)
+{
+  std::vector<LinearColor> rings = {RED, WHITE, GREEN, BLUE};
+  for (LinearColor& ring : rings)
+  {
+    ring = .25 * ring + LinearColor::all(.6);
+  }
+  EXPECT_EQ("RWGB", readColorKey(rings, .25 * WHITE + LinearColor::all(.6)));
+}
+
+TEST(ColorKey, theWayOfMeasuringThatOneKeyExplainsDecides)
+{
+  // Gloss on half of the rings: what was measured in the brightest directions is white.
+  const std::vector<LinearColor> glossy = {WHITE, WHITE, LinearColor(.5, .7, .55), WHITE, WHITE};
+  const std::vector<LinearColor> dark = {RED, WHITE, GREEN, BLUE, WHITE};
+  const std::vector<bool> seen(4, true);
+  EXPECT_EQ("RWGB", readColorKey(Ways{glossy, dark}, seen));
+  EXPECT_EQ("RWGB", readColorKey(Ways{dark, glossy}, seen));
+}
+
+TEST(ColorKey, aHiddenRingIsUnknownAndTellsNothing)
+{
+  const LinearColor skin(.6, .35, .2);
+  EXPECT_EQ("??GB", readColorKey(Ways{{skin, skin, GREEN, BLUE, WHITE}}, {false, false, true, true}));
+  EXPECT_EQ("???P", readColorKey(Ways{{skin, skin, skin, BLACK * 2., WHITE}}, {false, false, false, true}));
+  EXPECT_EQ("??", readColorKey(Ways{{skin, skin, WHITE}}, {false, false}));
 }
 
 int main(int argc, char** argv)

@@ -165,15 +165,94 @@ TEST(Targets, smallRings)
 
 TEST(Targets, theDisksColourIsThatOfItsSunnySide)
 {
-  // A shadow covers the disk but for its rim.
+  // A shadow covers the disk but for its rim: white in it is as dark as black in the sun.
   TargetScene scene;
-  scene.colors = "GWPBG";
-  scene.shadow = .15;
-  for (const double offset : {-14., 10.})
+  scene.shadow = .08;
+  for (const std::string colors : {"WGPBG", "WPGBG", "GWPBG"})
   {
-    scene.shadow_offset = offset;
-    expectFound(scene, "GWPBG", .2);
+    scene.colors = colors;
+    for (const double offset : {-14., 10.})
+    {
+      scene.shadow_offset = offset;
+      expectFound(scene, colors, .2);
+    }
   }
+}
+
+TEST(Targets, aCoveredDiskIsUnknownAndKeepsItsPlace)
+{
+  TargetScene scene;
+  scene.cover_offset = {6, 4};
+  for (const double cover : {28., 46.})
+  {
+    scene.cover = cover;
+    const std::vector<Target> targets = find(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
+    EXPECT_EQ('?', targets[0].colors[0]);
+    EXPECT_EQ("GB", targets[0].colors.substr(3)) << targets[0].colors;
+    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
+  }
+}
+
+TEST(Targets, aThingOnTheDiskAndBesideIt)
+{
+  TargetScene scene;
+  scene.cover = 45;
+  for (const cv::Point2d offset : {cv::Point2d(30, 10), cv::Point2d(-50, 40)})
+  {
+    scene.cover_offset = offset;
+    const std::vector<Target> targets = find(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    ASSERT_EQ(5U, targets[0].colors.size());
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+    }
+    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
+  }
+}
+
+TEST(Targets, glossTakesNoRingAndGivesNoWrongLetter)
+{
+  TargetScene scene;
+  scene.gloss = 3;
+  for (const cv::Point2d offset : {cv::Point2d(50, 10), cv::Point2d(25, -25)})
+  {
+    scene.gloss_offset = offset;
+    const std::vector<Target> targets = find(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size()) << offset;
+    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors << offset;
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+    }
+  }
+}
+
+TEST(Targets, faintBehindAVeil)
+{
+  TargetScene scene;
+  scene.veil = .75;
+  scene.light = .2;
+  scene.noise = .7;
+  const std::vector<Target> targets = find(renderTarget(scene));
+  ASSERT_EQ(1U, targets.size());
+  ASSERT_EQ(5U, targets[0].colors.size());
+  for (std::size_t k = 0; k < 5; ++k)
+  {
+    EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+  }
+}
+
+TEST(Targets, archesAreNone)
+{
+  // Half of the rings, as a portal has them.
+  TargetScene scene;
+  scene.colors = "PWPWP";
+  cv::Mat image = renderTarget(scene);
+  cv::rectangle(image, cv::Rect(0, 190, image.cols, image.rows - 190), cv::Scalar::all(200), cv::FILLED);
+  EXPECT_TRUE(find(image).empty());
 }
 
 TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)

@@ -13,7 +13,7 @@ namespace
 {
 constexpr int MIN_AREA = 20;  // of a piece [px]
 constexpr int MIN_SIDE = 8;   // of its box [px]
-constexpr int MAX_SIDE = 600;
+constexpr int MAX_SIDE = 80;
 constexpr int MAX_TILES = 8;     // along a side of the piece, whose edgels vote
 constexpr int MAX_EDGELS = 128;  // that vote
 constexpr int MIN_EDGELS = 20;

@@ -17,9 +17,12 @@ const std::array<LinearColor, LETTERS> REFLECTANCE = {LinearColor(1, 1, 1), Line
                                                       LinearColor(.66, .062, .055), LinearColor(.053, .33, .095),
                                                       LinearColor(.06, .09, .38)};
 
-constexpr double DARKEST = .055;   // ink; cameras that clip the blacks show less
-constexpr double FLOOR = .03;      // of the white: glare and noise hide darker differences
-constexpr double DEVIATION = .45;  // of the logarithm of the reflectance
+constexpr double DARKEST = .03;         // ink; cameras that clip the blacks show less
+constexpr double FLOOR = .03;           // of the white: glare and noise hide darker differences
+constexpr double DEVIATION = .4;        // of the logarithm of the reflectance, its mean over the channels apart
+constexpr double WHITE_DEVIATION = .2;  // the same of white, which the light tints as it tints the white of the place
+constexpr double BRIGHTNESS_DEVIATION = .6;  // of that mean
+constexpr double OTHER_WAY_COST = 1.5;       // of another way of measuring than the first
 constexpr double LARGEST_COST = 16;
 constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal letters
 constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
@@ -29,10 +32,14 @@ constexpr double FREE_WHITE_COST = 3;    // of a white that is seen nowhere
 constexpr int FREE_WHITES = 5;
 constexpr double FREE_WHITE_RATIO = 1.4;
 constexpr double HAZE_COST = 4;  // of a haze as bright as the white
-const std::array<double, 7> HAZES = {0, .03, .07, .12, .2, .3, .45};
+const std::array<double, 14> HAZES = {0, .03, .07, .12, .2, .3, .45, .6, .68, .74, .79, .83, .87, .9};
 
-constexpr double MIN_MARGIN = 1.5;  // between the best explanation and the best with another letter
-constexpr double UNEXPLAINED = 7;   // cost of a ring that no letter explains
+constexpr double MIN_MARGIN = 1.5;          // between the best explanation and the best with another letter
+constexpr double EXPLAINED = .5;            // cost a ring below which no other way of measuring is tried
+constexpr double UNEXPLAINED_MEDIAN = 2.5;  // of the rings' costs: no key explains the whole
+constexpr double THICK_HAZE = .4;
+constexpr double UNEXPLAINED_IN_HAZE = 2.5;  // cost of the whole a ring, through a thick haze
+constexpr double UNEXPLAINED = 6;            // cost of a ring that no letter explains
 
 using Costs = std::array<double, LETTERS>;
 
@@ -46,11 +53,19 @@ Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze
   Costs costs{};
   for (int letter = 0; letter < LETTERS; ++letter)
   {
+    LinearColor error;
     for (int c = 0; c < 3; ++c)
     {
       // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
       const double reflectance = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze));
-      costs[letter] += squared((std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR)) / DEVIATION);
+      error[c] = std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR);
+    }
+    // A shadow that covers one ring more than another changes its brightness alone.
+    const double brightness = (error[0] + error[1] + error[2]) / 3;
+    costs[letter] = 3 * squared(brightness / BRIGHTNESS_DEVIATION);
+    for (int c = 0; c < 3; ++c)
+    {
+      costs[letter] += squared((error[c] - brightness) / (LETTER[letter] == 'W' ? WHITE_DEVIATION : DEVIATION));
     }
     costs[letter] = std::min(costs[letter], LARGEST_COST);
   }
@@ -62,6 +77,7 @@ struct Explanation
 {
   double cost = std::numeric_limits<double>::infinity();
   std::vector<int> letters;
+  double haze = 0;
 };
 
 /** Cheapest sequence in which neighbours differ (Viterbi); at ring `fixed`, letter `banned` is not allowed. */
@@ -113,25 +129,39 @@ double tintCost(const LinearColor& color)
 }
 
 /** Nothing is much brighter than white. */
-double excessCost(const std::vector<LinearColor>& rings, const LinearColor& white)
+double excessCost(const std::vector<LinearColor>& rings, const std::vector<bool>& seen, const LinearColor& white)
 {
   double cost = 0;
-  for (const LinearColor& ring : rings)
+  for (std::size_t k = 0; k < rings.size(); ++k)
   {
+    if (!seen[k])
+    {
+      continue;
+    }
+    const LinearColor& ring = rings[k];
     const double ratio = std::max({ring[0] / white[0], ring[1] / white[1], ring[2] / white[2]});
     cost += squared(std::max(0., std::log(ratio) - EXCESS_DEVIATION) / EXCESS_DEVIATION);
   }
   return cost;
 }
 
-std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const LinearColor& around)
+std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const std::vector<bool>& seen,
+                                  const LinearColor& around)
 {
   std::vector<White> whites = {{around, tintCost(around)}};
+  // A ring that is alone would be as white as itself.
+  const bool is_one_of_several = std::count(seen.begin(), seen.end(), true) > 1;
   double brightest = 0;
-  for (const LinearColor& ring : rings)
+  for (std::size_t k = 0; k < rings.size(); ++k)
   {
-    whites.push_back({ring, tintCost(ring)});
-    brightest = std::max({brightest, ring[0], ring[1], ring[2]});
+    if (seen[k])
+    {
+      if (is_one_of_several)
+      {
+        whites.push_back({rings[k], tintCost(rings[k])});
+      }
+      brightest = std::max({brightest, rings[k][0], rings[k][1], rings[k][2]});
+    }
   }
   double level = brightest;
   for (int i = 0; i < FREE_WHITES; ++i)
@@ -140,6 +170,49 @@ std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const L
     level *= FREE_WHITE_RATIO;
   }
   return whites;
+}
+
+/** Tries all whites and hazes; the best explanation so far, and for each ring and letter the least cost, may improve.
+ */
+void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& seen, const LinearColor& around,
+             Explanation& best, std::vector<Costs>& best_costs, std::vector<Costs>& alternatives)
+{
+  if (rings.empty())
+  {
+    return;
+  }
+  for (const White& white : possibleWhites(rings, seen, around))
+  {
+    for (const double haze : HAZES)
+    {
+      std::vector<Costs> costs;
+      costs.reserve(rings.size());
+      for (std::size_t k = 0; k < rings.size(); ++k)
+      {
+        costs.push_back(seen[k] ? letterCosts(rings[k], white.color, haze) : Costs{});
+      }
+      const double assumed = white.cost + excessCost(rings, seen, white.color) + HAZE_COST * haze;
+      Explanation explanation = cheapest(costs, rings.size(), 0);
+      if (explanation.cost + assumed > best.cost + MIN_MARGIN)
+      {
+        continue;  // no letter that is chosen or in doubt comes from here
+      }
+      for (std::size_t k = 0; k < rings.size(); ++k)
+      {
+        const int letter = explanation.letters[k];
+        alternatives[k][letter] = std::min(alternatives[k][letter], explanation.cost + assumed);
+        const Explanation other = cheapest(costs, k, letter);
+        alternatives[k][other.letters[k]] = std::min(alternatives[k][other.letters[k]], other.cost + assumed);
+      }
+      explanation.cost += assumed;
+      explanation.haze = haze;
+      if (explanation.cost < best.cost)
+      {
+        best = explanation;
+        best_costs = costs;
+      }
+    }
+  }
 }
 }  // namespace
 
@@ -151,46 +224,61 @@ double linearLight(double grey_level)
 
 std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around)
 {
-  if (rings.empty())
+  std::vector<LinearColor> colors = rings;
+  colors.push_back(around);
+  return readColorKey({colors}, std::vector<bool>(rings.size(), true));
+}
+
+std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen)
+{
+  const std::size_t count = seen.size();
+  const auto seen_count = std::count(seen.begin(), seen.end(), true);
+  std::string key(count, '?');
+  if (seen_count == 0)
   {
-    return "";
+    return key;
   }
   Explanation best;
-  std::vector<Costs> alternatives(rings.size());  // cheapest explanation that gives a ring a letter
-  for (Costs& costs : alternatives)
-  {
-    costs.fill(std::numeric_limits<double>::infinity());
-  }
   std::vector<Costs> best_costs;
-  for (const White& white : possibleWhites(rings, around))
+  std::vector<Costs> alternatives;
+  double way_cost = 0;
+  for (std::vector<LinearColor> rings : measured)
   {
-    for (const double haze : HAZES)
+    if (!best.letters.empty() && best.cost < EXPLAINED * static_cast<double>(seen_count))
     {
-      std::vector<Costs> costs;
-      costs.reserve(rings.size());
-      for (const LinearColor& ring : rings)
-      {
-        costs.push_back(letterCosts(ring, white.color, haze));
-      }
-      const double assumed = white.cost + excessCost(rings, white.color) + HAZE_COST * haze;
-      Explanation explanation = cheapest(costs, rings.size(), 0);
-      for (std::size_t k = 0; k < rings.size(); ++k)
-      {
-        const int letter = explanation.letters[k];
-        alternatives[k][letter] = std::min(alternatives[k][letter], explanation.cost + assumed);
-        const Explanation other = cheapest(costs, k, letter);
-        alternatives[k][other.letters[k]] = std::min(alternatives[k][other.letters[k]], other.cost + assumed);
-      }
-      explanation.cost += assumed;
-      if (explanation.cost < best.cost)
-      {
-        best = explanation;
-        best_costs = costs;
-      }
+      break;
+    }
+    const LinearColor around = rings.back();
+    rings.pop_back();
+    Explanation explanation;
+    std::vector<Costs> costs;
+    std::vector<Costs> others(count);  // cheapest explanation that gives a ring a letter
+    for (Costs& other : others)
+    {
+      other.fill(std::numeric_limits<double>::infinity());
+    }
+    explain(rings, seen, around, explanation, costs, others);
+    if (best.letters.empty() || explanation.cost + way_cost < best.cost)
+    {
+      best = explanation;
+      best_costs = costs;
+      alternatives = others;
+    }
+    way_cost = OTHER_WAY_COST;
+  }
+  std::vector<double> ring_costs;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    if (seen[k])
+    {
+      ring_costs.push_back(best_costs[k][best.letters[k]]);
     }
   }
-  std::string key;
-  for (std::size_t k = 0; k < rings.size(); ++k)
+  std::sort(ring_costs.begin(), ring_costs.end());
+  const bool is_unexplained =
+      ring_costs[ring_costs.size() / 2] > UNEXPLAINED_MEDIAN ||
+      (best.haze > THICK_HAZE && best.cost > UNEXPLAINED_IN_HAZE * static_cast<double>(seen_count));
+  for (std::size_t k = 0; k < count; ++k)
   {
     const int letter = best.letters[k];
     double second = std::numeric_limits<double>::infinity();
@@ -198,8 +286,9 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
     {
       second = other == letter ? second : std::min(second, alternatives[k][other]);
     }
-    const bool readable = second - best.cost >= MIN_MARGIN && best_costs[k][letter] <= UNEXPLAINED;
-    key += readable ? LETTER[letter] : '?';
+    const bool readable =
+        seen[k] && second - best.cost >= MIN_MARGIN && best_costs[k][letter] <= UNEXPLAINED && !is_unexplained;
+    key[k] = readable ? LETTER[letter] : '?';
   }
   return key;
 }

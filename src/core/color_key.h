@@ -26,6 +26,15 @@ double linearLight(double grey_level);
  */
 std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around);
 
+/**
+ * The same where the colours were measured in several ways: the way that one key explains best decides, and a letter
+ * that another way would change at little cost is '?'.
+ *
+ * @param measured each: the rings from the inside out, and last what is around them.
+ * @param seen     of each ring: false where something hides it; it is '?' and tells nothing.
+ */
+std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen);
+
 }  // namespace omr
 
 #endif

@@ -85,6 +85,12 @@ class EdgelMap
     return threshold_;
   }
 
+  /** Takes edgels only from this multiple of the threshold on; before the first visit. */
+  void raiseThreshold(float factor)
+  {
+    threshold_ *= factor;
+  }
+
   /** Edgels looked at so far, a tile's first visit counting as a hundred: the measure of the work done, whoever else
    * has visited the tile before. */
   std::size_t looks() const

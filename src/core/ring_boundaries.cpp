@@ -12,17 +12,24 @@ namespace omr
 namespace
 {
 constexpr int ANGLES = RingProfile::ANGLES;
-constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
-constexpr int MIN_EDGED = 16;           // directions with an edge that make a median
-constexpr double MIN_WIDTH = 2.5;       // of a ring whose boundaries edgels alone show [px]
-constexpr double MIDDLE = .4;           // of a ring: from here to 1 - MIDDLE
-constexpr double MIN_CONTRAST = .12;    // of the logarithms, length over three channels
-constexpr double SMALL_RADIUS = 3;      // [px]; near the centre few pixels decide, so that their noise is coherent
+constexpr int MIN_ANGLES = ANGLES / 2;      // that must lie inside the image
+constexpr int MIN_EDGED = 16;               // directions with an edge that make a median
+constexpr double MIN_WIDTH = 2.5;           // of a ring whose boundaries edgels alone show [px]
+constexpr double MIDDLE = .4;               // of a ring: from here to 1 - MIDDLE
+constexpr double FLANK = 8;                 // farther from an edge nothing is its flank [px]
+constexpr double MIN_CONTRAST = .12;        // of the logarithms, length over three channels
+constexpr double MIN_EDGE_CONTRAST = .025;  // where edgels show that there is a boundary
+constexpr double EDGE_SUPPORT = .75;
+constexpr double EDGE_COHERENCE = .9;
+constexpr double SMALL_RADIUS = 3;  // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
 constexpr double MIN_AGREEMENT = .5;         // at a clear contrast: a target may be half hidden
 constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
+constexpr double CLEAR_AGREEMENT = .8;       // below it, edgels must tell that a boundary is no gradual change
+constexpr double MIN_SUPPORT = .25;          // by edgels, of such a one
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
 constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
+constexpr double DISK_SHARE = .75;           // of a disk's width that counts: it may be wider
 
 // Cameras and JPEG blur hues over several pixels: beside an edge the hue changes once more, faintly and without edgels.
 constexpr double BLEEDING = 6;        // reach of that [px]
@@ -53,7 +60,7 @@ void addKnown(const std::vector<double>& known, double limit, std::vector<double
     const auto next = std::lower_bound(own.begin(), own.end(), radius);
     const double outer = next == own.end() ? limit : *next;
     const double inner = next == own.begin() ? 0 : *(next - 1);
-    if (std::min(radius - inner, outer - radius) > std::max(MIN_WIDTH, MIDDLE * (outer - inner)))
+    if (std::min(radius - inner, outer - radius) > std::max(MIN_WIDTH, std::min(FLANK, MIDDLE * (outer - inner))))
     {
       radii.push_back(radius);
     }
@@ -66,7 +73,9 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
 {
   const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
   const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
-  return std::min({.5 * inside, .5 * outside, std::max(2., .02 * radii[k])});
+  // Bent sheets move the outermost boundary most.
+  const double bend = (k + 1 < radii.size() ? .02 : .03) * radii[k];
+  return std::min({.5 * inside, .5 * outside, std::max(2., bend)});
 }
 
 }  // namespace
@@ -134,7 +143,11 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   {
     const double along = steps[angle].dot(boundary.change);
     const double here = local_steps[angle].dot(boundary.change);
-    if ((boundary.seen >> angle & 1) != 0 && along > .4 * squared && along < 2.5 * squared && here > .35 * squared)
+    const bool is_alike = along > .4 * squared && along < 2.5 * squared && here > .35 * squared;
+    // Gloss weakens a step, and lets its hue and its edge.
+    const bool is_veiled = (boundary.supported >> angle & 1) != 0 && along > .15 * squared && here > .15 * squared &&
+                           along > .85 * boundary.contrast * cv::norm(steps[angle]);
+    if ((boundary.seen >> angle & 1) != 0 && (is_alike || is_veiled))
     {
       boundary.agreeing |= AngleBins{1} << angle;
     }
@@ -160,14 +173,20 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
 {
   const Boundary& boundary = boundaries[k];
   const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
-  const double least_contrast = MIN_CONTRAST * (1 + SMALL_RADIUS / boundary.radius);
+  const double supported = share(boundary.supported);
+  const bool is_edge = supported > EDGE_SUPPORT && boundary.coherence > EDGE_COHERENCE;
+  const double least_contrast = (is_edge ? MIN_EDGE_CONTRAST : MIN_CONTRAST) * (1 + SMALL_RADIUS / boundary.radius);
   double result =
       std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
   if (isBesideStronger(boundaries, k))
   {
-    const double supported = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
-    result = std::min(
-        result, std::max(supported / MIN_FLANK_SUPPORT, boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
+    const double seen_edges = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
+    result = std::min(result, std::max(seen_edges / MIN_FLANK_SUPPORT,
+                                       boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
+  }
+  if (boundary.agreement < CLEAR_AGREEMENT)
+  {
+    result = std::min(result, supported / MIN_SUPPORT);
   }
   if (k > 0 && k + 1 == boundaries.size())
   {
@@ -188,7 +207,7 @@ int tooNarrow(const std::vector<double>& radii)
   for (std::size_t k = 0; k < radii.size(); ++k)
   {
     const double width = radii[k] - (k > 0 ? radii[k - 1] : 0);
-    widest = std::max(widest, width);
+    widest = std::max(widest, (k == 0 ? DISK_SHARE : 1) * width);
     if (width < narrowest)
     {
       narrowest = width;

@@ -12,6 +12,11 @@ namespace omr
 namespace
 {
 constexpr int MAX_ROUNDS = 4;
+constexpr std::size_t ENOUGH_KNOWN = 3;  // boundaries that need not be grown
+constexpr double GROWN = 1.02;           // ratio of radii: beyond it there may be further boundaries
+constexpr double SAME_PLACE = .3;        // [px]: the profile needs no further look
+constexpr double KNOWN_REACH = 1.3;      // how far to look around fewer, relative to the outermost
+constexpr double KNOWN_GATE = .06;       // of the outermost known boundary: perspective moves their centres apart
 
 constexpr double SPLIT_EVIDENCE = .8;
 constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
@@ -20,11 +25,11 @@ constexpr int MOST_SPLITS = 2;
 // The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
 // clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
 constexpr int MANY_RINGS = 4;
-constexpr double SMALL_RADIUS = 15;    // [px]
-constexpr double LARGE_RADIUS = 25;    // [px]
-constexpr double SMALLEST_DISK = 2;    // radius [px]
-constexpr double MOSTLY_VISIBLE = .8;  // of the directions
-constexpr double LEAST_VISIBLE = .5;
+constexpr double SMALL_RADIUS = 15;       // [px]
+constexpr double LARGE_RADIUS = 25;       // [px]
+constexpr double SMALLEST_DISK = 2;       // radius [px]
+constexpr double MOSTLY_VISIBLE = .8;     // of the directions
+constexpr double LEAST_VISIBLE = .66;     // round arches show .5 to .65
 constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
 
 /** How far beyond the outermost boundary another may lie. */
@@ -110,6 +115,18 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   }
   return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
 }
+/** How far the outermost boundary lies from where another family has it [px]. */
+double shift(const RingFamily& family, const Rings& rings)
+{
+  double farthest = 0;
+  for (const cv::Point2d& direction : {cv::Point2d(1, 0), cv::Point2d(0, 1), cv::Point2d(-1, 0), cv::Point2d(0, -1)})
+  {
+    const cv::Point2d q = rings.radii.back() * direction;
+    farthest = std::max(farthest, cv::norm(family.toImage(q) - rings.family.toImage(q)));
+  }
+  return farthest;
+}
+
 /** Removes what the blur of other boundaries explains. */
 void removeBlur(RingCandidate& candidate)
 {
@@ -146,6 +163,51 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
     candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
   }
 }
+
+/** Finds out which boundaries there are, inside those of the candidate's rings and outside. */
+bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
+{
+  candidate.image_size = bgr.size();
+  Rings& rings = candidate.rings;
+  std::vector<RadialEdgel> edgels;
+  for (int round = 0; round < MAX_ROUNDS; ++round)
+  {
+    const double reach = profileReach(rings);
+    sampleProfile(bgr, rings.family, reach, candidate.profile);
+    collectRadialEdgels(map, rings.family, reach, .92, edgels);
+    candidate.boundaries = findBoundaries(candidate.profile, AngularSupport(edgels, reach), rings.radii);
+    if (candidate.boundaries.size() < 2)
+    {
+      return false;
+    }
+    const Rings before = rings;
+    rings.radii = radiiOf(candidate.boundaries);
+    rings.radii.resize(std::min<std::size_t>(rings.radii.size(), MAX_BOUNDARIES));
+    if (!refineRings(map, std::max(1., .012 * rings.radii.back()), true, rings))
+    {
+      return false;
+    }
+    if (rings.radii.back() < GROWN * before.radii.back() && shift(before.family, rings) < SAME_PLACE)
+    {
+      break;
+    }
+  }
+  candidate.boundaries.resize(rings.radii.size());
+  const AngleBins visible = visibleDirections(candidate.boundaries);
+  candidate.visible = share(visible);
+  candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
+  {
+    splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
+  }
+  removeBlur(candidate);
+  addPartialBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+                       rings.radii);
+  candidate.ring_count = static_cast<int>(candidate.boundaries.size());
+  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+                      rings.radii);
+  return true;
+}
 }  // namespace
 
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
@@ -171,7 +233,6 @@ bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
 
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
 {
-  candidate.image_size = bgr.size();
   Rings& rings = candidate.rings;
   rings.family = seed.family;
   rings.radii.clear();
@@ -179,46 +240,22 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
   {
     rings.radii = {seed.radius + 1.2};
   }
-  if (!growRings(map, seed.radius * (is_boundary ? 2.4 : 1.5) + 6, rings))
+  return growRings(map, seed.radius * (is_boundary ? 2.4 : 1.5) + 6, rings) && complete(map, bgr, candidate);
+}
+
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
+                   RingCandidate& candidate)
+{
+  Rings& rings = candidate.rings;
+  rings.family = family;
+  rings.radii = radii;
+  if (radii.size() < ENOUGH_KNOWN)
   {
-    return false;
+    return growRings(map, KNOWN_REACH * radii.back() + 6, rings) && complete(map, bgr, candidate);
   }
-  std::vector<RadialEdgel> edgels;
-  for (int round = 0; round < MAX_ROUNDS; ++round)
-  {
-    const double reach = profileReach(rings);
-    sampleProfile(bgr, rings.family, reach, candidate.profile);
-    collectRadialEdgels(map, rings.family, reach, .92, edgels);
-    candidate.boundaries = findBoundaries(candidate.profile, AngularSupport(edgels, reach), rings.radii);
-    if (candidate.boundaries.size() < 2)
-    {
-      return false;
-    }
-    const std::vector<double> before = rings.radii;
-    rings.radii = radiiOf(candidate.boundaries);
-    rings.radii.resize(std::min<std::size_t>(rings.radii.size(), MAX_BOUNDARIES));
-    if (!refineRings(map, std::max(1., .012 * rings.radii.back()), true, rings))
-    {
-      return false;
-    }
-    if (before.size() == rings.radii.size() && std::abs(before.back() - rings.radii.back()) < .3)
-    {
-      break;
-    }
-  }
-  candidate.boundaries.resize(rings.radii.size());
-  const AngleBins visible = visibleDirections(candidate.boundaries);
-  candidate.visible = share(visible);
-  candidate.evidence = evidenceOf(candidate.boundaries, visible);
-  if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
-  {
-    splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
-  }
-  removeBlur(candidate);
-  candidate.ring_count = static_cast<int>(candidate.boundaries.size());
-  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
-                      rings.radii);
-  return true;
+  // Where the edgels do not fit, the profile may still tell.
+  refineRings(map, std::max(1.5, KNOWN_GATE * radii.back()), true, rings);
+  return complete(map, bgr, candidate);
 }
 
 bool isTarget(const RingCandidate& candidate, int min_rings)
@@ -239,7 +276,8 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     return many ? candidate.evidence > .8 && candidate.visible > .85
                 : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
   }
-  const bool fits = rings.rms < .25 + .0025 * radius;
+  const bool is_clear = many && candidate.evidence > .85 && candidate.visible > .9;
+  const bool fits = rings.rms < .25 + (is_clear ? .004 : .0025) * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {
     // Half-hidden targets that fit worse are off by a tenth of a ring and more.

@@ -33,6 +33,14 @@ bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
  */
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate);
 
+/**
+ * The same from a family of which some boundaries are known.
+ *
+ * @param radii of those, ascending, at least one [px].
+ */
+bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
+                   RingCandidate& candidate);
+
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
 

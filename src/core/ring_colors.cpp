@@ -14,6 +14,10 @@ constexpr double BLURRED_WIDTH = 7;  // narrower rings have no place that the bl
 constexpr int MIN_DIRECTIONS = 12;   // that make a median
 constexpr double DARKEST = .003;     // linear light: two grey levels in the dark, below it is noise
 
+// Of the directions by brightness: the first few may be something else, up to PART they count.
+constexpr double OUTLIERS = .05;
+constexpr double PART = .25;
+
 /** Values of three channels, and their medians. */
 class Values
 {
@@ -72,6 +76,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
   const std::size_t count = radii.size() + 1;
   std::vector<cv::Vec3d> chained(count);
   std::vector<cv::Vec3d> medians(count);
+  int seen = 0;
   cv::Vec3d level;  // what the chain lacks: the light of the whole target
   for (std::size_t ring = 0; ring < count; ++ring)
   {
@@ -96,8 +101,13 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
     }
     chained[ring] = ring > 0 ? chained[ring - 1] + steps.median() : cv::Vec3d();
     medians[ring] = light.median();
-    level += (medians[ring] - chained[ring]) * (1. / static_cast<double>(count));
+    if ((ring == 0 || boundaries[ring - 1].shown) && (ring + 1 == count || boundaries[ring].shown))
+    {
+      level += medians[ring] - chained[ring];
+      ++seen;
+    }
   }
+  level *= 1. / std::max(1, seen);
   if (narrowestRing(radii) < BLURRED_WIDTH)
   {
     const std::vector<cv::Vec3d> deblurred = deblurredColors(profile, radii);
@@ -115,6 +125,37 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
       linear[c] = std::max(1e-4, std::exp(color[c] + level[c]) - DARKEST);
     }
     colors.push_back(linear);
+  }
+  return colors;
+}
+
+std::vector<LinearColor> measureColorsIn(Light light, const RingProfile& profile, const std::vector<double>& radii)
+{
+  std::vector<LinearColor> colors;
+  for (std::size_t ring = 0; ring <= radii.size(); ++ring)
+  {
+    std::vector<std::pair<double, LinearColor>> by_brightness;
+    for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
+    {
+      LogColor color;
+      if (ringColor(profile, radii, ring, angle, color))
+      {
+        const LinearColor linear(linearLight(greyLevel(color[2])), linearLight(greyLevel(color[1])),
+                                 linearLight(greyLevel(color[0])));
+        by_brightness.emplace_back(linear[0] + linear[1] + linear[2], linear);
+      }
+    }
+    std::sort(by_brightness.begin(), by_brightness.end(), [&](const auto& left, const auto& right) {
+      return light == Light::brightest ? left.first > right.first : left.first < right.first;
+    });
+    const auto from = static_cast<std::size_t>(OUTLIERS * static_cast<double>(by_brightness.size()));
+    const auto to = std::max(from + 1, static_cast<std::size_t>(PART * static_cast<double>(by_brightness.size())));
+    LinearColor sum(1e-4, 1e-4, 1e-4);
+    for (std::size_t i = from; i < std::min(to, by_brightness.size()); ++i)
+    {
+      sum += by_brightness[i].second * (1. / static_cast<double>(to - from));
+    }
+    colors.push_back(sum);
   }
   return colors;
 }

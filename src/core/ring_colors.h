@@ -20,6 +20,16 @@ namespace omr
 std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std::vector<Boundary>& boundaries,
                                            const std::vector<double>& radii);
 
+/** Part of the directions, by their brightness. */
+enum class Light
+{
+  brightest,  ///< where a shadow leaves a part of each ring in the sun, that part tells its colour
+  darkest     ///< and where gloss covers a part, the rest does
+};
+
+/** The same colours as measureRingColors() gives, from a part of the directions. */
+std::vector<LinearColor> measureColorsIn(Light light, const RingProfile& profile, const std::vector<double>& radii);
+
 }  // namespace omr
 
 #endif

@@ -159,7 +159,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
   if (!rings.radii.empty())
   {
     collectRadialEdgels(map, rings.family, rings.radii.back() * 1.2 + 3, COARSE_COSINE, edgels);
-    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), false, COARSE_POINTS, rings) ||
+    if (!refineWith(edgels, std::max(1.5, .1 * rings.radii.back()), rings.radii.size() > 1, COARSE_POINTS, rings) ||
         rings.rms > LARGEST_RMS + LARGEST_RELATIVE_RMS * rings.radii.back())
     {
       return false;

@@ -1,5 +1,7 @@
 #include "ring_ladder.h"
 
+#include "ring_refinement.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,10 +19,22 @@ constexpr double MIN_SHOWN = .25;
 constexpr double MIN_COHERENCE = .7;
 constexpr double MIN_CONTRAST = .12;  // of the logarithms
 
-constexpr double MIN_READABLE = .45;  // agreement that tells the colours of its rings: below it glare is read
+constexpr double READABLE_COHERENCE = .8;
+constexpr double MIN_READABLE = .5;  // agreement that tells the colours of its rings: below it glare is read
 constexpr double MOSTLY_HIDDEN =
-    .6;  // a disk's outline agrees in fewer directions: what covers it may hide rings entirely
+    .75;  // a disk's outline agrees in fewer directions: what covers it may hide rings entirely
 constexpr double MERGING_WIDTH = 4.5;  // narrower rings of similar brightness merge [px]
+
+// A boundary that shows in few directions: there it must be clear, and leave room for two rings.
+constexpr double PARTIAL_RADIUS = 30;  // of the outermost boundary: in smaller ones bars and letters give arcs [px]
+constexpr double PARTIAL_WIDTH = 7;    // least of a ring [px]: nearer to an edge is that one's blur
+constexpr double PARTIAL_WIDTH_SHARE = .7;  // least of a ring, relative to the narrowest
+constexpr double PARTIAL_STEP = .5;         // [px]
+constexpr double PARTIAL_SUPPORT = .22;     // share of the directions with an edge
+constexpr double PARTIAL_SHOWN = .25;       // and that agree besides
+constexpr double PARTIAL_AGREEING = .6;     // of the directions with an edge
+constexpr double PARTIAL_CONTRAST = .25;
+constexpr double PARTIAL_COHERENCE = .85;
 
 /** How many rings of the others' width the ring takes the place of; 1 if the others differ. */
 int ringsWithin(const std::vector<double>& radii, std::size_t ring)
@@ -83,7 +97,8 @@ void addHiddenBoundaries(const RingProfile& profile, const AngularSupport& suppo
     {
       hidden.push_back(measureBoundary(profile, support, measured, ring + i));
       all_shown = all_shown && isThere(hidden.back());
-      hidden.back().shown = isThere(hidden.back()) && hidden.back().agreement > MIN_READABLE;
+      hidden.back().shown = isThere(hidden.back()) && hidden.back().agreement > MIN_READABLE &&
+                            hidden.back().coherence > READABLE_COHERENCE;
     }
     const double width = (radii[ring] - (ring > 0 ? radii[ring - 1] : 0)) / count;
     if (all_shown || (ring == 0 && boundaries[0].agreement < MOSTLY_HIDDEN) || width < MERGING_WIDTH)
@@ -92,6 +107,51 @@ void addHiddenBoundaries(const RingProfile& profile, const AngularSupport& suppo
       radii = divided(radii, ring, count);
     }
     return;
+  }
+}
+
+void addPartialBoundaries(const RingProfile& profile, const AngularSupport& support, std::vector<Boundary>& boundaries,
+                          std::vector<double>& radii)
+{
+  const double narrowest = narrowestRing(radii);
+  while (boundaries.back().radius > PARTIAL_RADIUS && boundaries.size() < MAX_BOUNDARIES)
+  {
+    double best = 0;
+    Boundary best_boundary;
+    const int steps = static_cast<int>((boundaries.back().radius - 2 * PARTIAL_WIDTH) / PARTIAL_STEP);
+    for (int step = 0; step <= steps; ++step)
+    {
+      const double radius = PARTIAL_WIDTH + step * PARTIAL_STEP;
+      std::vector<double> measured = radiiOf(boundaries);
+      const auto place = std::lower_bound(measured.begin(), measured.end(), radius);
+      const double inner = place == measured.begin() ? 0 : *(place - 1);
+      const double least = std::max(PARTIAL_WIDTH, PARTIAL_WIDTH_SHARE * narrowest);
+      if (radius - inner < least || *place - radius < least ||
+          share(support.at(radius, std::max(.8, .012 * radius))) < PARTIAL_SUPPORT)
+      {
+        continue;
+      }
+      const auto k = static_cast<std::size_t>(place - measured.begin());
+      measured.insert(place, radius);
+      const Boundary boundary = measureBoundary(profile, support, measured, k);
+      const double shown = share(boundary.agreeing & boundary.supported);
+      if (boundary.contrast > PARTIAL_CONTRAST && boundary.coherence > PARTIAL_COHERENCE && shown > PARTIAL_SHOWN &&
+          shown > PARTIAL_AGREEING * share(boundary.supported) && shown > best)
+      {
+        best = shown;
+        best_boundary = boundary;
+      }
+    }
+    if (best <= 0)
+    {
+      return;
+    }
+    const std::vector<double> known = radiiOf(boundaries);
+    const auto k = std::lower_bound(known.begin(), known.end(), best_boundary.radius) - known.begin();
+    const double scale = radii[k] / known[k];
+    best_boundary.shown = best_boundary.agreement > MIN_READABLE;
+    boundaries.insert(boundaries.begin() + k, best_boundary);
+    radii.insert(radii.begin() + k, best_boundary.radius * scale);
   }
 }
 

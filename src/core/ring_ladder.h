@@ -18,6 +18,13 @@ namespace omr
 void addHiddenBoundaries(const RingProfile& profile, const AngularSupport& support, std::vector<Boundary>& boundaries,
                          std::vector<double>& radii);
 
+/**
+ * Adds boundaries inside the outermost one that show in few directions, but there clearly: what covers the others hides
+ * them there.
+ */
+void addPartialBoundaries(const RingProfile& profile, const AngularSupport& support, std::vector<Boundary>& boundaries,
+                          std::vector<double>& radii);
+
 }  // namespace omr
 
 #endif

@@ -18,9 +18,8 @@ constexpr std::size_t MAX_PIECES = 50;  // that are looked at
 constexpr double LOOKS_PER_PIXEL = .6;
 constexpr double MIN_LOOKS = 1200000;  // seven targets take 500000, however small the picture
 
-// Of the looks may be spent after the round seeds that share their centre with others, the pieces with many votes, the
-// other round seeds. In clutter the votes are .22 to .26, in targets .25 to .83.
-constexpr double CONCENTRIC_SHARE = .5;
+// Of the looks may be spent after the pieces with many votes, and after the round seeds that are alone. In clutter the
+// votes are .22 to .26, in targets .25 to .83.
 constexpr double PIECES_SHARE = .8;
 constexpr double SINGLE_SHARE = .95;
 constexpr double MANY_VOTES = .3;
@@ -31,18 +30,6 @@ struct ArcSeed
   RingSeed seed;
   double votes = 0;
 };
-
-std::size_t sharedLooks(const cv::Size& image_size, double share)
-{
-  return static_cast<std::size_t>(share * static_cast<double>(allowedLooks(image_size)));
-}
-
-/** Grows a seed whose boundary was seen. */
-void grow(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
-{
-  grown.is_target =
-      growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
-}
 
 /** Seeds are grown in their order, where nothing undisputed was found yet: two at a time, in two threads. */
 class Search
@@ -56,6 +43,18 @@ class Search
   void allow(double share)
   {
     map_.setMaxLooks(sharedLooks(bgr_.size(), share));
+  }
+
+  void tryFamilies(std::vector<GrownSeed>& families)
+  {
+    for (GrownSeed& family : families)
+    {
+      map_.join(family.map);
+      if (family.is_target && !isTaken(family.candidate.rings.family.center))
+      {
+        candidates_.push_back(std::move(family.candidate));
+      }
+    }
   }
 
   void tryRound(RoundSeeds& seeds, bool with_companions)
@@ -180,7 +179,7 @@ class Search
         Growth& growth = waiting_[i];
         if (!growth.is_grown)
         {
-          grow(bgr_, *growth.seed, growth.is_boundary, min_rings_, growth.grown);
+          growSeed(bgr_, *growth.seed, growth.is_boundary, min_rings_, growth.grown);
         }
       }
     });
@@ -212,37 +211,9 @@ std::size_t allowedLooks(const cv::Size& image_size)
   return static_cast<std::size_t>(std::max(MIN_LOOKS, LOOKS_PER_PIXEL * image_size.area()));
 }
 
-RoundSeeds toRoundSeeds(const RegionMap& regions)
+std::size_t sharedLooks(const cv::Size& image_size, double share)
 {
-  RoundSeeds seeds;
-  seeds.seeds = findRoundSeeds(regions.regions);
-  seeds.grown.resize(seeds.seeds.size());
-  return seeds;
-}
-
-void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
-{
-  EdgelMap own = map;
-  own.setMaxLooks(sharedLooks(bgr.size(), CONCENTRIC_SHARE));
-  std::vector<RingCandidate> candidates;
-  for (std::size_t i = 0; i < seeds.seeds.size() && !own.isSpent(); ++i)
-  {
-    const RingSeed& seed = seeds.seeds[i];
-    if (seed.companions > 0 && !isInUndisputed(candidates, seed.family.center))
-    {
-      GrownSeed grown(own.fork());
-      if (hasOwnBoundary(grown.map, bgr, seed))
-      {
-        grow(bgr, seed, true, min_rings, grown);
-      }
-      own.join(grown.map);
-      if (grown.is_target)
-      {
-        candidates.push_back(grown.candidate);
-      }
-      seeds.grown[i].emplace(std::move(grown));
-    }
-  }
+  return static_cast<std::size_t>(share * static_cast<double>(allowedLooks(image_size)));
 }
 
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
@@ -254,7 +225,9 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
 {
+  growFamilies(map, bgr, min_rings, seeds);
   Search search(map, bgr, boards, min_rings);
+  search.tryFamilies(seeds.families);
   search.allow(CONCENTRIC_SHARE);
   search.tryRound(seeds, true);
   search.allow(PIECES_SHARE);

@@ -13,19 +13,41 @@ namespace omr
 {
 namespace
 {
-constexpr double MIN_UNREAD_DIAMETER = 30;  // of a target of three rings with unknown ones [px]
+constexpr double UNREAD_RMS = .12;  // of a target of which half is unknown [px]
+constexpr double UNREAD_RELATIVE_RMS = .001;
+// With unknown rings, the least evidence x visible share: lenses, eyes and signs have rings too, and no letters.
+constexpr double SMALL_DIAMETER = 30;   // [px]; of three rings all or all but one are to be read
+constexpr double MEDIUM_DIAMETER = 50;  // [px]
+constexpr double CLEAR = .85;
+constexpr double VERY_CLEAR = .95;
 
-/** A target has letters; three narrow rings, which lenses and letters have too, are one only if all can be read. */
-bool isReadable(const Target& target, int ring_count, int min_rings)
+// A boundary between two rings that read alike, as glare makes them.
+constexpr double EVIDENT_CONTRAST = .2;
+constexpr double EVIDENT_COHERENCE = .9;
+constexpr double EVIDENT_SHARE = .5;
+
+/**
+ * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
+ * half cannot be read must fit well.
+ */
+bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
 {
   const auto count = static_cast<int>(target.colors.size());
-  const auto unknown = std::count(target.colors.begin(), target.colors.end(), '?');
-  if (std::min(count, ring_count) < min_rings || unknown == count)
+  const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
+  const int counted = std::min(count, candidate.ring_count);
+  if (counted < min_rings ||
+      (2 * unknown >= count && candidate.rings.rms > UNREAD_RMS + UNREAD_RELATIVE_RMS * candidate.rings.radii.back()))
   {
     return false;
   }
   const cv::Size2f size = target.rings.back().size;
-  return std::min(count, ring_count) > 3 || unknown == 0 || std::min(size.width, size.height) > MIN_UNREAD_DIAMETER;
+  const float diameter = std::min(size.width, size.height);
+  const double clearness = candidate.evidence * candidate.visible;
+  if (counted == 3 && diameter < SMALL_DIAMETER)
+  {
+    return unknown == 0 || (unknown == 1 && clearness > VERY_CLEAR);
+  }
+  return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }
 
 /** Whether both boundaries of the ring show. */
@@ -34,23 +56,39 @@ bool isSeen(const std::vector<Boundary>& boundaries, std::size_t ring)
   return boundaries[ring].shown && (ring == 0 || boundaries[ring - 1].shown);
 }
 
+constexpr double SHARP_WIDTH = 7;  // of rings that show their colour in each direction without the blur's help [px]
+
+/** Whether there is a boundary, whatever the colours. */
+bool isEvident(const Boundary& boundary)
+{
+  return boundary.contrast > EVIDENT_CONTRAST && boundary.coherence > EVIDENT_COHERENCE &&
+         share(boundary.agreeing & boundary.supported) > EVIDENT_SHARE;
+}
+
 /** The key's letters; a boundary between equal ones is no ring's: the family loses it. */
 std::string readColors(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
 {
   while (true)
   {
-    std::vector<LinearColor> colors = measureRingColors(profile, boundaries, radii);
-    const LinearColor around = colors.back();
-    colors.pop_back();
-    std::string key = readColorKey(colors, around);
-    for (std::size_t k = 0; k < key.size(); ++k)
+    std::vector<std::vector<LinearColor>> measured = {measureRingColors(profile, boundaries, radii)};
+    if (narrowestRing(radii) > SHARP_WIDTH)
     {
-      key[k] = isSeen(boundaries, k) ? key[k] : '?';
+      measured.push_back(measureColorsIn(Light::brightest, profile, radii));
+      measured.push_back(measureColorsIn(Light::darkest, profile, radii));
     }
-    std::size_t k = 0;
-    while (k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1]))
+    std::vector<bool> seen(radii.size());
+    for (std::size_t k = 0; k < radii.size(); ++k)
     {
-      ++k;
+      seen[k] = isSeen(boundaries, k);
+    }
+    std::string key = readColorKey(measured, seen);
+    std::size_t k = 0;
+    for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
+    {
+      if (key[k] == key[k + 1])
+      {
+        key[k] = key[k + 1] = '?';
+      }
     }
     if (k + 1 >= key.size())
     {
@@ -71,7 +109,7 @@ bool toTarget(RingCandidate candidate, int min_rings, Target& target)
   {
     target.rings.push_back(candidate.rings.family.ellipse(radius));
   }
-  return isReadable(target, candidate.ring_count, min_rings);
+  return isReadable(target, candidate, min_rings);
 }
 }  // namespace
 
@@ -111,6 +149,7 @@ void TargetSearch::lookAhead()
 {
   if (state_->prepare())
   {
+    growFamilies(*state_->map, state_->frame.bgr, state_->min_rings, state_->seeds);
     growConcentric(*state_->map, state_->frame.bgr, state_->min_rings, state_->seeds);
   }
 }

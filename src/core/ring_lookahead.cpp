@@ -1,0 +1,87 @@
+#include "ring_lookahead.h"
+
+#include <algorithm>
+
+#include "arc_search.h"
+#include "ring_places.h"
+#include "ring_search.h"
+
+namespace omr
+{
+namespace
+{
+constexpr double FAMILIES_SHARE = .4;
+}  // namespace
+
+void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
+{
+  grown.is_target =
+      growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
+}
+
+RoundSeeds toRoundSeeds(const RegionMap& regions)
+{
+  RoundSeeds seeds;
+  seeds.seeds = findRoundSeeds(regions.regions);
+  seeds.grown.resize(seeds.seeds.size());
+  return seeds;
+}
+
+void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
+{
+  if (seeds.has_families)
+  {
+    return;
+  }
+  const std::vector<ArcFamily> families = searchArcFamilies(bgr);
+  EdgelMap start = map;
+  start.setMaxLooks(sharedLooks(bgr.size(), FAMILIES_SHARE));
+  for (std::size_t i = 0; i < families.size(); ++i)
+  {
+    seeds.families.emplace_back(start.fork());
+  }
+  cv::parallel_for_(cv::Range(0, static_cast<int>(families.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      GrownSeed& grown = seeds.families[i];
+      grown.is_target = growCandidate(grown.map, bgr, families[i].family, families[i].radii, grown.candidate) &&
+                        isTarget(grown.candidate, min_rings);
+    }
+  });
+  seeds.has_families = true;
+}
+
+void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)
+{
+  EdgelMap own = map;
+  own.setMaxLooks(sharedLooks(bgr.size(), CONCENTRIC_SHARE));
+  std::vector<RingCandidate> candidates;
+  for (const GrownSeed& family : seeds.families)
+  {
+    own.join(family.map);
+    if (family.is_target)
+    {
+      candidates.push_back(family.candidate);
+    }
+  }
+  for (std::size_t i = 0; i < seeds.seeds.size() && !own.isSpent(); ++i)
+  {
+    const RingSeed& seed = seeds.seeds[i];
+    if (seed.companions > 0 && !isInUndisputed(candidates, seed.family.center))
+    {
+      GrownSeed grown(own.fork());
+      if (hasOwnBoundary(grown.map, bgr, seed))
+      {
+        growSeed(bgr, seed, true, min_rings, grown);
+      }
+      own.join(grown.map);
+      if (grown.is_target)
+      {
+        candidates.push_back(grown.candidate);
+      }
+      seeds.grown[i].emplace(std::move(grown));
+    }
+  }
+}
+
+}  // namespace omr

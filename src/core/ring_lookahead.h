@@ -1,0 +1,54 @@
+#ifndef OUTDOOR_OMR_CORE_RING_LOOKAHEAD_H
+#define OUTDOOR_OMR_CORE_RING_LOOKAHEAD_H
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "edgels.h"
+#include "outdoor_omr/region.h"
+#include "ring_candidate.h"
+#include "ring_seeds.h"
+
+namespace omr
+{
+constexpr double CONCENTRIC_SHARE = .5;  ///< of the looks, after families and seeds with companions
+
+/** What became of a seed. */
+struct GrownSeed
+{
+  explicit GrownSeed(EdgelMap fork) : map(std::move(fork))
+  {
+  }
+
+  bool is_target = false;
+  RingCandidate candidate;
+  EdgelMap map;  ///< a fork, which knows the looks that it took
+};
+
+/** What the search begins with: families of arcs, and the round seeds of an image, some grown already. */
+struct RoundSeeds
+{
+  std::vector<RingSeed> seeds;
+  std::vector<std::optional<GrownSeed>> grown;  // one a seed
+  std::vector<GrownSeed> families;              // the one with most arcs first
+  bool has_families = false;
+};
+
+RoundSeeds toRoundSeeds(const RegionMap& regions);
+
+/** Finds and grows the families of arcs, from which most targets come, if that was not done before. */
+void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
+
+/**
+ * Grows seeds that share their centre with others, as long as there is one outside of what was found: those that
+ * findRingCandidates() goes on with, if they lie on no board.
+ */
+void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
+
+/** Grows a seed whose boundary was seen. */
+void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown);
+
+}  // namespace omr
+
+#endif

@@ -1,0 +1,109 @@
+#include "arc_families.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "arc_circles.h"
+#include "arc_search.h"
+#include "render_target.h"
+
+namespace
+{
+std::vector<omr::EdgeArc> arcsOf(const cv::Mat& image)
+{
+  omr::EdgelMap map(image);
+  return omr::traceArcs(map, image.size());
+}
+
+double turningOf(const std::vector<omr::EdgeArc>& arcs)
+{
+  return std::accumulate(arcs.begin(), arcs.end(), 0.,
+                         [](double sum, const omr::EdgeArc& arc) { return sum + arc.turning; });
+}
+
+cv::Mat circle(int radius)
+{
+  cv::Mat image(200, 240, CV_8UC3, cv::Scalar::all(230));
+  cv::circle(image, {120, 100}, radius, cv::Scalar::all(30), cv::FILLED, cv::LINE_AA);
+  return image;
+}
+}  // namespace
+
+TEST(EdgeArcs, aCircleTurnsOnceAndIsConcaveToItsCentre)
+{
+  for (const int radius : {12, 30, 80})
+  {
+    const std::vector<omr::EdgeArc> arcs = arcsOf(circle(radius));
+    EXPECT_NEAR(2 * CV_PI, turningOf(arcs), 1.2) << radius;
+    for (const omr::EdgeArc& arc : arcs)
+    {
+      EXPECT_GT(arc.inwards.dot(cv::Point2d(120, 100) - arc.middle), .9 * radius);
+    }
+  }
+}
+
+TEST(EdgeArcs, straightEdgesAndCornersAreNone)
+{
+  cv::Mat image(200, 240, CV_8UC3, cv::Scalar::all(230));
+  const std::vector<cv::Point> outline = {{30, 40}, {190, 20}, {210, 150}, {60, 180}};
+  cv::fillConvexPoly(image, outline, cv::Scalar::all(30), cv::LINE_AA);
+  EXPECT_LT(turningOf(arcsOf(image)), 2);  // the four corners turn by 6.3 in all
+}
+
+TEST(ArcCircles, areWhereTheArcsAreDense)
+{
+  std::vector<omr::ArcRadius> arcs;
+  for (int i = 0; i < 8; ++i)
+  {
+    arcs.emplace_back(40 + .3 * i, .4);
+    arcs.emplace_back(60 - .3 * i, .4);
+  }
+  for (int i = 0; i < 20; ++i)
+  {
+    arcs.emplace_back(5 + 13. * i, .4);
+  }
+  const std::vector<double> radii = omr::circlesOf(arcs);
+  ASSERT_EQ(2U, radii.size());
+  EXPECT_NEAR(41, radii[0], .6);
+  EXPECT_NEAR(59, radii[1], .6);
+}
+
+TEST(ArcFamilies, arcsOfHalfHiddenCirclesGiveTheirFamily)
+{
+  TargetScene scene;
+  scene.homography = tiltedView({240, 180}, .6, .4, 1, 4000);
+  scene.occluder = .45;
+  scene.cover = 38;
+  scene.cover_offset = {-20, 15};
+  const std::vector<omr::ArcFamily> families = omr::findArcFamilies(arcsOf(renderTarget(scene)));
+  ASSERT_FALSE(families.empty());
+  EXPECT_NEAR(0, cv::norm(families[0].family.center - projectedCenter(scene)), 2);
+  EXPECT_NEAR(1 / std::cos(.6), families[0].family.aspect(), .03);
+  ASSERT_LE(3U, families[0].radii.size());
+  EXPECT_NEAR(100 * std::sqrt(std::cos(.6)), families[0].radii.back(), 2);
+}
+
+TEST(ArcFamilies, aScaleOfAnySizeKeepsPlaceAndSize)
+{
+  // The search works on a reduced image where there are many pixels.
+  TargetScene scene;
+  const cv::Mat target = renderTarget(scene);
+  for (const cv::Size size : {cv::Size(480, 360), cv::Size(1601, 1203), cv::Size(2600, 2003)})
+  {
+    cv::Mat image(size, CV_8UC3, cv::Scalar::all(145));
+    const cv::Rect place(cv::Point((size.width - target.cols) / 2, (size.height - target.rows) / 2), target.size());
+    target.copyTo(image(place));
+    const std::vector<omr::ArcFamily> families = omr::searchArcFamilies(image);
+    ASSERT_EQ(1U, families.size());
+    EXPECT_NEAR(0, cv::norm(families[0].family.center - projectedCenter(scene) - cv::Point2d(place.tl())), .7);
+    EXPECT_NEAR(100, families[0].radii.back(), 1.5);
+  }
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
