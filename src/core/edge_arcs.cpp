@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fast_angle.h"
+
 namespace omr
 {
 namespace
@@ -151,7 +153,7 @@ std::vector<Link> tangents(const std::vector<const Edgel*>& chain)
   std::vector<double> raw(chain.size());
   for (std::size_t i = 0; i < chain.size(); ++i)
   {
-    double angle = std::atan2(chain[i]->nx, -chain[i]->ny);
+    double angle = fastAngle(-chain[i]->ny, chain[i]->nx) * (CV_PI / 180);
     if (i == 0)
     {
       const Edgel& next = *chain[1];

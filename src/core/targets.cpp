@@ -13,8 +13,11 @@ namespace omr
 {
 namespace
 {
-constexpr double UNREAD_RMS = .12;  // of a target of which half is unknown [px]
-constexpr double UNREAD_RELATIVE_RMS = .001;
+// Distance of the edgels to their boundaries, most, of a target of which half is unknown; and of one without letters,
+// unless it is very clear: a helicopter's landing place comes near to one.
+constexpr double HALF_READ_RMS = .13;  // [px]
+constexpr double UNREAD_RMS = .085;    // [px]
+constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
 // With unknown rings, the least evidence x visible share: lenses, eyes and signs have rings too, and no letters.
 constexpr double SMALL_DIAMETER = 30;   // [px]; of three rings all or all but one are to be read
 constexpr double MEDIUM_DIAMETER = 50;  // [px]
@@ -35,14 +38,15 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   const auto count = static_cast<int>(target.colors.size());
   const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
   const int counted = std::min(count, candidate.ring_count);
-  if (counted < min_rings ||
-      (2 * unknown >= count && candidate.rings.rms > UNREAD_RMS + UNREAD_RELATIVE_RMS * candidate.rings.radii.back()))
+  const double clearness = candidate.evidence * candidate.visible;
+  const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
+                      RELATIVE_RMS * candidate.rings.radii.back();
+  if (counted < min_rings || (2 * unknown >= count && candidate.rings.rms > most))
   {
     return false;
   }
   const cv::Size2f size = target.rings.back().size;
   const float diameter = std::min(size.width, size.height);
-  const double clearness = candidate.evidence * candidate.visible;
   if (counted == 3 && diameter < SMALL_DIAMETER)
   {
     return unknown == 0 || (unknown == 1 && clearness > VERY_CLEAR);
