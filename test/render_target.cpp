@@ -84,7 +84,8 @@ cv::Mat renderTarget(const TargetScene& scene)
       const cv::Point2d p((x + .5) / SUPERSAMPLING - .5, (y + .5) / SUPERSAMPLING - .5);
       const cv::Vec3d q = inverse * cv::Vec3d(p.x, p.y, 1);
       double light = scene.light * (1 + scene.gradient * (p.x / scene.size.width - .5));
-      light *= (p.x - center.x - scene.shadow_offset) + .4 * (p.y - center.y) > 0 ? scene.shadow : 1;
+      const double behind = (p.x - center.x - scene.shadow_offset) + .4 * (p.y - center.y);
+      light *= behind > 0 && behind < scene.shadow_width ? scene.shadow : 1;
       const cv::Point2d from_gloss = p - center - scene.gloss_offset;
       const double added = scene.veil + scene.gloss * std::exp(-from_gloss.dot(from_gloss) /
                                                                (2 * scene.gloss_radius * scene.gloss_radius));

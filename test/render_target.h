@@ -20,6 +20,7 @@ struct TargetScene
   cv::Vec3d tint = {1, 1, 1};         ///< of the light (blue, green, red)
   double shadow = 1;                  ///< factor of the light right of the oblique line through the centre
   double shadow_offset = 0;           ///< moves that line to the right [px]
+  double shadow_width = 1e9;          ///< of the shadow from that line to the right, along a row [px]
   double occluder = 0;                ///< a skin-coloured half-plane over this share of the outer radius
   double cover = 0;                   ///< radius of a skin-coloured disk that lies on the plane [px]
   cv::Point2d cover_offset = {0, 0};  ///< of its centre on the plane [px]

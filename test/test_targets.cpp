@@ -165,7 +165,7 @@ TEST(Targets, smallRings)
 
 TEST(Targets, theDisksColourIsThatOfItsSunnySide)
 {
-  // A shadow covers the disk but for its rim: white in it is as dark as black in the sun.
+  // A shadow covers the disk but for its rim.
   TargetScene scene;
   scene.shadow = .08;
   for (const std::string colors : {"WGPBG", "WPGBG", "GWPBG"})
@@ -176,6 +176,23 @@ TEST(Targets, theDisksColourIsThatOfItsSunnySide)
       scene.shadow_offset = offset;
       expectFound(scene, colors, .2);
     }
+  }
+}
+
+TEST(Targets, aDiskUnderABarsShadowIsNotBlack)
+{
+  // White in the shade is as dark as black in the sun; the rings around are in the sun, but for the bar's shadow.
+  TargetScene scene;
+  scene.shadow = .08;
+  scene.shadow_offset = -23;
+  scene.shadow_width = 46;
+  for (const std::string colors : {"WPGBG", "WRPBG", "GWPBG"})
+  {
+    scene.colors = colors;
+    const std::vector<Target> targets = find(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    EXPECT_TRUE(targets[0].colors[0] == '?' || targets[0].colors[0] == colors[0]) << targets[0].colors;
+    EXPECT_EQ(colors.substr(1), targets[0].colors.substr(1));
   }
 }
 

@@ -22,7 +22,7 @@ constexpr double FLOOR = .03;           // of the white: glare and noise hide da
 constexpr double DEVIATION = .4;        // of the logarithm of the reflectance, its mean over the channels apart
 constexpr double WHITE_DEVIATION = .2;  // the same of white, which the light tints as it tints the white of the place
 constexpr double BRIGHTNESS_DEVIATION = .6;  // of that mean
-constexpr double OTHER_WAY_COST = 1.5;       // of another way of measuring than the first
+constexpr double OTHER_WAY_COST = 3;       // of another way of measuring than the first
 constexpr double LARGEST_COST = 16;
 constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal letters
 constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
@@ -35,7 +35,7 @@ constexpr double HAZE_COST = 4;  // of a haze as bright as the white
 const std::array<double, 14> HAZES = {0, .03, .07, .12, .2, .3, .45, .6, .68, .74, .79, .83, .87, .9};
 
 constexpr double MIN_MARGIN = 1.5;          // between the best explanation and the best with another letter
-constexpr double EXPLAINED = .5;            // cost a ring below which no other way of measuring is tried
+constexpr double EXPLAINED = .8;            // cost a ring below which no other way of measuring is tried
 constexpr double UNEXPLAINED_MEDIAN = 2.5;  // of the rings' costs: no key explains the whole
 constexpr double THICK_HAZE = .4;
 constexpr double UNEXPLAINED_IN_HAZE = 2.5;  // cost of the whole a ring, through a thick haze
