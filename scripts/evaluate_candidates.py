@@ -36,11 +36,12 @@ def area(box):
 
 
 def true_markers(picture):
-    """(kind, box, size of a square or ring [px], visible fraction) of every marker."""
+    """(kind, box, size of a square or ring [px], visible fraction) of every marker whose outline is known."""
     for board in picture['checkerboards']:
         yield 'checkerboard', box_of(board['outline']), board['min_square_px'], board['visible_fraction']
     for target in picture['targets']:
-        yield 'target', box_of(target['outline']), target['ring_px'], target['visible_fraction']
+        if target['outline']:
+            yield 'target', box_of(target['outline']), target['ring_px'], target['visible_fraction']
 
 
 def detect(folder, names, arguments, jsonl):

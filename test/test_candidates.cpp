@@ -63,12 +63,22 @@ TEST(Candidates, noWindowAboveTheThresholdGivesNone)
   EXPECT_TRUE(scores.candidates().empty());
 }
 
-TEST(Candidates, aWindowAloneIsClutter)
+TEST(Candidates, twoWindowsAloneAreClutter)
 {
   Scores scores;
-  scores.show(MarkerKind::checkerboard, 0, {3, 3, 1, 1}, .99F);
-  scores.show(MarkerKind::target, 0, {20, 3, 1, 1}, .99F);
+  scores.show(MarkerKind::checkerboard, 0, {3, 3, 2, 1}, .99F);
+  scores.show(MarkerKind::target, 0, {20, 3, 1, 2}, .99F);
   EXPECT_TRUE(scores.candidates().empty());
+}
+
+TEST(Candidates, theBestWindowMustBeSure)
+{
+  Scores scores;
+  scores.show(MarkerKind::checkerboard, 0, {3, 3, 6, 6}, .85F);
+  EXPECT_TRUE(scores.candidates().empty());
+  scores.show(MarkerKind::checkerboard, 0, {5, 5, 1, 1}, .95F);
+  ASSERT_EQ(1U, scores.candidates().size());
+  EXPECT_EQ(36, scores.candidates()[0].windows);
 }
 
 TEST(Candidates, neighbouringWindowsMakeOneBox)
@@ -90,7 +100,7 @@ TEST(Candidates, placesApartAreTwoTheBetterSupportedFirst)
 {
   Scores scores;
   scores.show(MarkerKind::target, 0, {2, 2, 2, 2}, .95F);
-  scores.show(MarkerKind::checkerboard, 1, {20, 10, 4, 4}, .8F);
+  scores.show(MarkerKind::checkerboard, 1, {20, 10, 4, 4}, .95F);
   const std::vector<Candidate> found = scores.candidates();
   ASSERT_EQ(2U, found.size());
   EXPECT_EQ(MarkerKind::checkerboard, found[0].kind);
@@ -100,7 +110,7 @@ TEST(Candidates, placesApartAreTwoTheBetterSupportedFirst)
 TEST(Candidates, inOnePlaceTheBetterSupportedKindStays)
 {
   Scores scores;
-  scores.show(MarkerKind::checkerboard, 0, {10, 10, 6, 6}, .8F);
+  scores.show(MarkerKind::checkerboard, 0, {10, 10, 6, 6}, .95F);
   scores.show(MarkerKind::target, 0, {11, 11, 2, 2}, .9F);
   const std::vector<Candidate> found = scores.candidates();
   ASSERT_EQ(1U, found.size());
@@ -110,7 +120,7 @@ TEST(Candidates, inOnePlaceTheBetterSupportedKindStays)
 TEST(Candidates, levelsThatSeeTheSameAreOne)
 {
   Scores scores;
-  scores.show(MarkerKind::checkerboard, 0, {10, 10, 6, 6}, .8F);
+  scores.show(MarkerKind::checkerboard, 0, {10, 10, 6, 6}, .95F);
   scores.show(MarkerKind::checkerboard, 1, {4, 4, 3, 3}, .7F);
   const std::vector<Candidate> found = scores.candidates();
   ASSERT_EQ(1U, found.size());

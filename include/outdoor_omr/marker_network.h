@@ -28,7 +28,7 @@ struct MarkerNetwork
   int hidden = 0;              ///< units of the hidden layer
   std::vector<float> weights;  ///< of each hidden unit: bias and HAAR_FEATURES weights; then of each output: bias and
                                ///< one weight a hidden unit
-  MarkerScores thresholds = {1, 1};  ///< a window with a larger score shows a marker of the kind
+  MarkerScores thresholds = {1, 1};  ///< a window with a larger score may show a marker of the kind
 };
 
 /** @param features HAAR_FEATURES values. */

@@ -9,8 +9,9 @@ namespace omr
 {
 namespace
 {
-/** Windows that a candidate needs at least. */
-constexpr std::array<int, MARKER_KINDS> LEAST_WINDOWS = {3, 2};
+/** Score that the best window of a candidate needs, and the number of its windows on all levels. */
+constexpr std::array<float, MARKER_KINDS> BEST_SCORE = {.9F, .5F};
+constexpr int LEAST_WINDOWS = 3;
 
 /** Boxes that share more than this of the smaller one are one candidate. */
 constexpr double SAME = .5;
@@ -22,7 +23,7 @@ constexpr double READ = .4;
 struct Cluster
 {
   Candidate candidate;
-  double support = 0;  // sum of its windows' scores, and of those merged into it
+  double support = 0;  // sum of its windows' scores above -1, and of those merged into it
 };
 
 /** Neighbouring windows of one level above the threshold of a kind. */
@@ -56,17 +57,14 @@ void addClusters(const MarkerScores* scores, const cv::Size& grid, int level, Ma
     Cluster& cluster = found[label];
     cluster.candidate.box |= windowRect(index, level);
     cluster.candidate.score = std::max(cluster.candidate.score, scores[i][k]);
-    cluster.support += scores[i][k];
+    cluster.support += scores[i][k] + 1;
     cluster.candidate.windows += 1;
   }
   for (int label = 1; label < count; ++label)
   {
-    if (found[label].candidate.windows >= LEAST_WINDOWS[k])
-    {
-      found[label].candidate.kind = kind;
-      found[label].candidate.cell = cellSize(level);
-      clusters.push_back(found[label]);
-    }
+    found[label].candidate.kind = kind;
+    found[label].candidate.cell = cellSize(level);
+    clusters.push_back(found[label]);
   }
 }
 
@@ -127,7 +125,11 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
   candidates.reserve(clusters.size());
   for (const Cluster& cluster : clusters)
   {
-    candidates.push_back(cluster.candidate);
+    const Candidate& candidate = cluster.candidate;
+    if (candidate.windows >= LEAST_WINDOWS && candidate.score >= BEST_SCORE[static_cast<int>(candidate.kind)])
+    {
+      candidates.push_back(candidate);
+    }
   }
   return candidates;
 }

@@ -20,13 +20,13 @@ struct Options
 {
   std::vector<std::string> photographs;
   std::string output;
-  int scenes = 4000;
-  int hidden = 32;
+  int scenes = 3000;
+  int hidden = 40;
   int epochs = 12;
   int rounds = 3;
   int held_out = 4;
   unsigned seed = 1;
-  double precision = .999;
+  double precision = .9995;
 };
 
 /** Larger photographs are shrunk to this: their finest detail is blur. */
@@ -294,7 +294,7 @@ int parseAndRun(int argc, char** argv)
   app.add_option("--held-out", options.held_out, "of so many photographs one is held out")
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
-  app.add_option("--precision", options.precision, "precision that chooses the thresholds")
+  app.add_option("--precision", options.precision, "precision that chooses the thresholds, as if every second window showed a marker")
       ->capture_default_str()
       ->check(CLI::Range(.5, 1.));
   app.add_option("--seed", options.seed, "equal seeds and photographs give equal networks")->capture_default_str();
