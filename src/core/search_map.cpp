@@ -27,8 +27,12 @@ void SearchMap::addFailure(const cv::Point2f& point, float square_height, int fa
   const cv::Point2f center = point * (1.F / CELL);
   const cv::Rect around(cv::Point(cvFloor(center.x - radius), cvFloor(center.y - radius)),
                         cv::Point(cvFloor(center.x + radius) + 1, cvFloor(center.y + radius) + 1));
-  cv::Mat cells = failures_(around & cv::Rect(cv::Point(), failures_.size()));
-  cells += cv::Scalar(failures);
+  const cv::Rect inside = around & cv::Rect(cv::Point(), failures_.size());
+  if (!inside.empty())  // a corner near the border may be fitted outside the image
+  {
+    cv::Mat cells = failures_(inside);
+    cells += cv::Scalar(failures);
+  }
 }
 
 void SearchMap::close(const std::vector<cv::Point2f>& outline)
