@@ -18,6 +18,10 @@ constexpr double SAME_PLACE = .3;        // [px]: the profile needs no further l
 constexpr double KNOWN_REACH = 1.3;      // how far to look around fewer, relative to the outermost
 constexpr double KNOWN_GATE = .06;       // of the outermost known boundary: perspective moves their centres apart
 
+constexpr double CLEAR_CONTRAST = .5;
+constexpr double CLEAR_SUPPORT = .45;
+constexpr double CLEAR_AGREEMENT = .85;
+constexpr double COVERED_RADIUS = 5;  // smaller disks have no edge of their own in the blur [px]
 constexpr double SPLIT_EVIDENCE = .8;
 constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
 constexpr int MOST_SPLITS = 2;
@@ -203,6 +207,12 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   removeBlur(candidate);
   addPartialBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
+  Boundary& disk = candidate.boundaries.front();
+  if (disk.contrast > CLEAR_CONTRAST && disk.radius > COVERED_RADIUS && share(disk.supported) < CLEAR_SUPPORT &&
+      disk.agreement < CLEAR_AGREEMENT)
+  {
+    disk.shown = false;  // so strong a step has an edge: what is seen is a thing on the disk
+  }
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
   addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                       rings.radii);
@@ -247,8 +257,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, 
                    RingCandidate& candidate)
 {
   Rings& rings = candidate.rings;
-  rings.family = family;
-  rings.radii = radii;
+  rings = {family, radii, 0};
   if (radii.size() < ENOUGH_KNOWN)
   {
     return growRings(map, KNOWN_REACH * radii.back() + 6, rings) && complete(map, bgr, candidate);
