@@ -294,7 +294,8 @@ int parseAndRun(int argc, char** argv)
   app.add_option("--held-out", options.held_out, "of so many photographs one is held out")
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
-  app.add_option("--precision", options.precision, "precision that chooses the thresholds, as if every second window showed a marker")
+  app.add_option("--precision", options.precision,
+                 "precision that chooses the thresholds, as if every second window showed a marker")
       ->capture_default_str()
       ->check(CLI::Range(.5, 1.));
   app.add_option("--seed", options.seed, "equal seeds and photographs give equal networks")->capture_default_str();
