@@ -147,8 +147,8 @@ void DeviceFill::readLabels(cv::Mat& labels)
 
 std::size_t DeviceFill::bytes() const
 {
-  return buffers_.bytes() + windows_.bytes() + upload_.bytes() + edge_image_.bytes() + label_image_.bytes() +
-         sweep_labels_.bytes();
+  return buffers_.bytes() + (windows_ ? windows_->bytes() : 0) + upload_.bytes() + edge_image_.bytes() +
+         label_image_.bytes() + sweep_labels_.bytes();
 }
 
 void DeviceFill::finish()
@@ -208,7 +208,7 @@ void DeviceFill::warmUp()
       finish();
     }
   }
-  windows_ = WindowBuffers();
+  windows_.reset();
 }
 
 }  // namespace omr

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_GPU_DEVICE_FILL_H
 #define OUTDOOR_OMR_GPU_DEVICE_FILL_H
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -112,6 +113,7 @@ class DeviceFill
   template <typename Write>
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
   void warmUp();
+  void reserveWindows();
   void findIntegral();
   void findRuns(const Strips& strips);
   bool sweep(int rounds);
@@ -131,8 +133,8 @@ class DeviceFill
   bool shares_memory_;  ///< a CPU device works on the host's memory in place
   int compute_units_;
   FillBuffers buffers_;
-  WindowBuffers windows_;
-  int images_without_windows_ = 0;  // in a row
+  std::unique_ptr<WindowBuffers> windows_;  ///< null while there is no preliminary detection
+  int images_without_windows_ = 0;          // in a row
   GrowingBuffer upload_, edge_image_, label_image_, sweep_labels_;
   cv::Mat bgr_;       ///< holds the pixels until finish()
   cl::Buffer image_;  ///< what the next step reads: the loaded or the filtered image

@@ -25,33 +25,42 @@ void upload(const cl::Context& context, const cl::CommandQueue& queue, const std
 }
 }  // namespace
 
+void DeviceFill::reserveWindows()
+{
+  if (!windows_)
+  {
+    windows_ = std::make_unique<WindowBuffers>();
+  }
+  windows_->reserve(context_, size_, divideUp(size_.height, integralRows(size_.height, compute_units_)));
+}
+
 void DeviceFill::findIntegral()
 {
   if (geometry_ == Geometry::words)
   {
-    launch("integralRows", rows(), image_, step_, size_.width, *windows_.integral);
+    launch("integralRows", rows(), image_, step_, size_.width, *windows_->integral);
     launch("integralColumns", program_.groupsOf(3 * (static_cast<std::size_t>(size_.width) + 1)), size_.width,
-           size_.height, *windows_.integral);
+           size_.height, *windows_->integral);
     return;
   }
   const int strip_rows = integralRows(size_.height, compute_units_);
   const Groups groups = {static_cast<std::size_t>(divideUp(size_.height, strip_rows)), 1};
-  launch("columnSums", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_.column_sums);
-  launch("integralStrip", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_.column_sums,
-         *windows_.integral);
+  launch("columnSums", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_->column_sums);
+  launch("integralStrip", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_->column_sums,
+         *windows_->integral);
 }
 
 void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores)
 {
   images_without_windows_ = 0;
-  windows_.reserve(context_, size_, divideUp(size_.height, integralRows(size_.height, compute_units_)));
-  if (windows_.tables.bytes() == 0)
+  reserveWindows();
+  if (windows_->tables.bytes() == 0)
   {
     const auto& logarithm = haarTables().logarithm;
-    upload(context_, queue_, std::vector<cl_short>(logarithm.begin(), logarithm.end()), windows_.logarithm);
-    upload(context_, queue_, packTables(), windows_.tables);
+    upload(context_, queue_, std::vector<cl_short>(logarithm.begin(), logarithm.end()), windows_->logarithm);
+    upload(context_, queue_, packTables(), windows_->tables);
   }
-  upload(context_, queue_, packWeights(network), windows_.weights);
+  upload(context_, queue_, packWeights(network), windows_->weights);
   const auto crossings = static_cast<cl_int>(haarTables().crossings.size());
   findIntegral();
   int first = 0;
@@ -63,26 +72,26 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
       break;
     }
     const cv::Size cells = size_ / cellSize(level);
-    launch("haarCells", {static_cast<std::size_t>(cells.height), 1}, *windows_.integral, size_.width, level,
-           *windows_.logarithm, cells.width, cells.height, *windows_.cells);
-    launch("scoreWindows", {static_cast<std::size_t>(grid.height), 1}, *windows_.cells, cells.width, cells.height,
-           *windows_.tables, crossings, *windows_.weights, network.hidden, grid.width, first, *windows_.scores);
+    launch("haarCells", {static_cast<std::size_t>(cells.height), 1}, *windows_->integral, size_.width, level,
+           *windows_->logarithm, cells.width, cells.height, *windows_->cells);
+    launch("scoreWindows", {static_cast<std::size_t>(grid.height), 1}, *windows_->cells, cells.width, cells.height,
+           *windows_->tables, crossings, *windows_->weights, network.hidden, grid.width, first, *windows_->scores);
     first += grid.area();
   }
   scores.resize(first);
   if (first > 0)
   {
-    queue_.enqueueReadBuffer(*windows_.scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
+    queue_.enqueueReadBuffer(*windows_->scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
   }
   scored_ = last_event_;
 }
 
 void DeviceFill::readIntegral(cv::Mat& integral)
 {
-  windows_.reserve(context_, size_, divideUp(size_.height, integralRows(size_.height, compute_units_)));
+  reserveWindows();
   findIntegral();
   integral.create(size_.height + 1, size_.width + 1, CV_32SC3);
-  queue_.enqueueReadBuffer(*windows_.integral, CL_TRUE, 0, integral.total() * integral.elemSize(), integral.data);
+  queue_.enqueueReadBuffer(*windows_->integral, CL_TRUE, 0, integral.total() * integral.elemSize(), integral.data);
 }
 
 void DeviceFill::spareWindows()
@@ -90,7 +99,7 @@ void DeviceFill::spareWindows()
   images_without_windows_ += 1;
   if (images_without_windows_ > PATIENCE)
   {
-    windows_ = WindowBuffers();
+    windows_.reset();
   }
 }
 

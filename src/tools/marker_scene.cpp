@@ -11,6 +11,7 @@ namespace
 {
 const cv::Size SCENE_SIZE(480, 360);
 constexpr int SUPERSAMPLING = 3;
+constexpr int CIRCLE_POINTS = 64;
 constexpr double GAMMA = 2.2;
 
 double logUniform(cv::RNG& random, double min, double max)
@@ -89,6 +90,7 @@ void fillPolygon(cv::Mat& canvas, const std::vector<cv::Point2d>& outline, const
   std::vector<cv::Point2d> fine;
   cv::perspectiveTransform(outline, fine, to_fine);
   std::vector<cv::Point> points;
+  points.reserve(fine.size());
   for (const cv::Point2d& point : fine)
   {
     points.emplace_back(cvRound(point.x * (1 << SHIFT)), cvRound(point.y * (1 << SHIFT)));
@@ -104,9 +106,11 @@ std::vector<cv::Point2d> rectangle(double left, double top, double right, double
 std::vector<cv::Point2d> circle(double radius)
 {
   std::vector<cv::Point2d> outline;
-  for (int i = 0; i < 64; ++i)
+  outline.reserve(CIRCLE_POINTS);
+  for (int i = 0; i < CIRCLE_POINTS; ++i)
   {
-    outline.emplace_back(radius * std::cos(i * CV_PI / 32), radius * std::sin(i * CV_PI / 32));
+    const double angle = 2 * CV_PI * i / CIRCLE_POINTS;
+    outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
   return outline;
 }
@@ -179,6 +183,7 @@ cv::Mat sunlight(const cv::Size& size, cv::RNG& random)
   for (int i = 0; i < shadows; ++i)
   {
     std::vector<cv::Point> outline;
+    outline.reserve(4);
     for (int corner = 0; corner < 4; ++corner)
     {
       outline.emplace_back(random.uniform(-size.width / 4, size.width * 5 / 4),
@@ -240,8 +245,9 @@ MarkerScene renderMarkerScene(const cv::Mat& background, cv::RNG& random)
     {
       continue;  // it would lie over its neighbours
     }
-    const cv::Point2d place(SCENE_SIZE.width * (i % grid + random.uniform(.4, .6)) / grid,
-                            SCENE_SIZE.height * (i / grid + random.uniform(.4, .6)) / grid);
+    const cv::Point cell(i % grid, i / grid);
+    const cv::Point2d place(SCENE_SIZE.width * (cell.x + random.uniform(.4, .6)) / grid,
+                            SCENE_SIZE.height * (cell.y + random.uniform(.4, .6)) / grid);
     const cv::Matx33d origin(1, 0, board ? -marker.squares.width / 2. : 0, 0, 1,
                              board ? -marker.squares.height / 2. : 0, 0, 0, 1);
     marker.to_pixels = randomView(place, unit, extent, random) * origin;

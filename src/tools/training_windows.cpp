@@ -58,11 +58,14 @@ WindowLabel labelOf(const cv::Rect& window, int level, const PlacedMarker& marke
   const cv::Matx33d to_marker = marker.to_pixels.inv();
   const cv::Point2d center(window.x + (window.width - 1) / 2., window.y + (window.height - 1) / 2.);
   int covered = 0;
-  for (int i = 0; i < GRID * GRID; ++i)
+  for (int row = 0; row < GRID; ++row)
   {
-    const cv::Point2d at(window.x - .5 + window.width * (i % GRID + .5) / GRID,
-                         window.y - .5 + window.height * (i / GRID + .5) / GRID);
-    covered += static_cast<int>(covers(marker, apply(to_marker, at)));
+    for (int col = 0; col < GRID; ++col)
+    {
+      const cv::Point2d at(window.x - .5 + window.width * (col + .5) / GRID,
+                           window.y - .5 + window.height * (row + .5) / GRID);
+      covered += static_cast<int>(covers(marker, apply(to_marker, at)));
+    }
   }
   if (marker.kind == MarkerKind::checkerboard)
   {
