@@ -14,7 +14,7 @@ int windowCount(const cv::Size& size);
 
 /**
  * The network's scores of all windows, level by level, row by row; -1 where a window has too little contrast. Plain
- * C++: the oracle of kernels/haar.cl, and its place where no OpenCL device is.
+ * C++: the oracle of kernels/network.cl, and its place where no OpenCL device is.
  *
  * @param bgr H x W, CV_8UC3.
  */

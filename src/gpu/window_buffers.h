@@ -9,7 +9,8 @@
 
 namespace omr
 {
-/** What the kernels of the preliminary detection keep on the device; the layouts are those of kernels/haar.cl. */
+/** What the kernels of the preliminary detection keep on the device; the layouts are those of haar.cl and network.cl.
+ */
 struct WindowBuffers
 {
   GrowingBuffer column_sums;  ///< of each strip of rows
@@ -29,7 +30,7 @@ struct WindowBuffers
 /** The lookup tables of haar.cl: 40 shifts by length, firsts of the bands, crossings. */
 std::vector<cl_uchar> packTables();
 
-/** A network's weights in the order of haar.cl. */
+/** A network's weights in the order of network.cl. */
 std::vector<cl_float> packWeights(const MarkerNetwork& network);
 
 }  // namespace omr
