@@ -16,8 +16,8 @@ struct Frame
 };
 
 /**
- * The detectors smooth on their own, whatever the fill pipeline's filter: corners refined on the 3x3 Gaussian have
- * 0.05 to 0.07 px RMS, on the raw image 0.08 to 0.12 (72 rendered scenes).
+ * The detectors smooth on their own, whatever the fill pipeline's filter. Where a corner is fitted, nothing is
+ * smoothed: see fitCorner().
  *
  * @param bgr H x W, CV_8UC3, not empty.
  * @throws std::invalid_argument otherwise.
