@@ -119,9 +119,8 @@ class Tracer
     {
       for (int dx = -reach; dx <= reach; ++dx)
       {
-        const float ahead = static_cast<float>(dx) * direction.x + static_cast<float>(dy) * direction.y;
         const int cell = middle[dy * stride + dx];
-        if (cell == 0 || ahead <= 0)
+        if (cell == 0 || static_cast<float>(dx) * direction.x + static_cast<float>(dy) * direction.y <= 0)
         {
           continue;
         }

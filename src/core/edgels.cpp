@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core/hal/intrin.hpp>
 #include <utility>
 
@@ -25,12 +26,12 @@ constexpr std::size_t TILE_LOOKS = 100;  // that computing a tile takes the time
 constexpr int NOISE_SAMPLES = 6;         // tiles along each side of the picture
 constexpr int LANES = 8;
 
-/** Edgels of pixels side by side; one that is no edgel has garbage. */
-struct Maxima
+/** Pixels side by side, and the magnitudes one step along their gradient and against it. */
+struct Neighbours
 {
-  std::array<float, LANES> x, y;  // from the pixel of the first one [px]
   std::array<float, LANES> nx, ny;
-  std::array<int, LANES> is_edgel;
+  std::array<float, LANES> ahead, behind;
+  std::array<std::int32_t, LANES> is_edgel;  // -1 or 0
 };
 
 /** Whether one of the magnitudes reaches the threshold. */
@@ -41,10 +42,10 @@ bool anyReaches(const float* magnitudes, float threshold)
 }
 
 /**
- * Places the edgels of the gradient pixels (j, i) to (j + LANES - 1, i): pixels whose magnitude reaches the threshold
- * and is the largest along the gradient. Without branches, all lanes at once.
+ * Compares the gradient pixels (j, i) to (j + LANES - 1, i) with their neighbours along the gradient: an edgel is one
+ * whose magnitude reaches the threshold and is the largest. Without branches, all lanes at once.
  */
-inline void findMaxima(const GradientTile& tile, int i, int j, float threshold, Maxima& maxima)
+inline void compare(const GradientTile& tile, int i, int j, float threshold, Neighbours& neighbours)
 {
   const float* above = &tile.magnitude[i - 1][j];
   const float* row = &tile.magnitude[i][j];
@@ -78,26 +79,45 @@ inline void findMaxima(const GradientTile& tile, int i, int j, float threshold, 
     const float across_behind = to_below ? (to_right ? up_left : up_right) : (to_right ? down_left : down_right);
     const float ahead = (1 - t) * beside_ahead + t * across_ahead;
     const float behind = (1 - t) * beside_behind + t * across_behind;
-    const float curvature = ahead + behind - 2 * here;
-    const float vertex = (behind - ahead) / (2 * curvature);
-    const float bounded = vertex < -.7F ? -.7F : (vertex > .7F ? .7F : vertex);
-    const float offset = curvature < -1e-3F ? bounded : 0.F;
-    const float step = offset / (along_row ? ax : ay);
-    maxima.x[lane] = step * nx;
-    maxima.y[lane] = step * ny;
-    maxima.nx[lane] = nx;
-    maxima.ny[lane] = ny;
-    maxima.is_edgel[lane] =
-        static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) & static_cast<int>(here > behind);
+    neighbours.nx[lane] = nx;
+    neighbours.ny[lane] = ny;
+    neighbours.ahead[lane] = ahead;
+    neighbours.behind[lane] = behind;
+    neighbours.is_edgel[lane] =
+        -(static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) & static_cast<int>(here > behind));
   }
+}
+
+/** A bit for each lane that is an edgel. */
+unsigned edgelsOf(const Neighbours& neighbours)
+{
+  const int low = cv::v_signmask(cv::v_load(neighbours.is_edgel.data()));
+  const int high = cv::v_signmask(cv::v_load(neighbours.is_edgel.data() + LANES / 2));
+  return static_cast<unsigned>(low | high << (LANES / 2));
 }
 
 /** Edgels of a tile while they are found. */
 struct EdgelBuffer
 {
-  static constexpr std::size_t SIZE = TILE * TILE + 1;  // the last one is written without being counted
-  std::array<float, SIZE> x, y, nx, ny;
+  std::array<float, TILE * TILE> x, y, nx, ny;
   std::size_t count = 0;
+
+  /** Places the edgel of a pixel by a parabola through the magnitudes along the gradient. */
+  void add(const cv::Point& pixel, float here, const Neighbours& neighbours, unsigned lane)
+  {
+    const float ahead = neighbours.ahead[lane];
+    const float behind = neighbours.behind[lane];
+    const float curvature = ahead + behind - 2 * here;
+    const float vertex = (behind - ahead) / (2 * curvature);
+    const float bounded = vertex < -.7F ? -.7F : (vertex > .7F ? .7F : vertex);
+    const float offset = curvature < -1e-3F ? bounded : 0.F;
+    const float step = offset / std::max(std::abs(neighbours.nx[lane]), std::abs(neighbours.ny[lane]));
+    x[count] = static_cast<float>(pixel.x) + step * neighbours.nx[lane];
+    y[count] = static_cast<float>(pixel.y) + step * neighbours.ny[lane];
+    nx[count] = neighbours.nx[lane];
+    ny[count] = neighbours.ny[lane];
+    ++count;
+  }
 };
 
 /** The edgels of the gradient pixels in an area. */
@@ -111,18 +131,17 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
     for (const int block : BLOCKS)
     {
       const int end = std::min(block + LANES, area.x + area.width);
-      if (anyReaches(&tile.magnitude[i][block], threshold))
+      const int first = std::max(next, block);
+      if (first < end && anyReaches(&tile.magnitude[i][block], threshold))
       {
-        Maxima maxima;
-        findMaxima(tile, i, block, threshold, maxima);
-        for (int j = std::max(next, block); j < end; ++j)
+        Neighbours neighbours;
+        compare(tile, i, block, threshold, neighbours);
+        unsigned edgels = edgelsOf(neighbours) & ((1U << (end - block)) - (1U << (first - block)));
+        for (; edgels != 0; edgels &= edgels - 1)
         {
-          const int lane = j - block;
-          buffer.x[buffer.count] = static_cast<float>(origin.x + j - 1) + maxima.x[lane];
-          buffer.y[buffer.count] = static_cast<float>(origin.y + i - 1) + maxima.y[lane];
-          buffer.nx[buffer.count] = maxima.nx[lane];
-          buffer.ny[buffer.count] = maxima.ny[lane];
-          buffer.count += static_cast<std::size_t>(maxima.is_edgel[lane]);
+          const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
+          const int j = block + static_cast<int>(lane);
+          buffer.add(origin + cv::Point(j - 1, i - 1), tile.magnitude[i][j], neighbours, lane);
         }
       }
       next = std::max(next, end);
