@@ -1,8 +1,10 @@
 #include "edge_arcs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "fast_angle.h"
 
@@ -31,17 +33,30 @@ struct Link
   double angle = 0;  // of the tangent, continuous along the chain [rad]
 };
 
+/** From a pixel to those around it; the first NEAREST touch it. */
+constexpr std::size_t NEAREST = 8;
+constexpr std::array<std::array<int, 2>, 24> AROUND = {
+    {{-1, -1}, {0, -1},  {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1},  {-2, -2}, {-1, -2}, {0, -2}, {1, -2},
+     {2, -2},  {-2, -1}, {2, -1}, {-2, 0}, {2, 0}, {-2, 1}, {2, 1}, {-2, 2}, {-1, 2},  {0, 2},   {1, 2},  {2, 2}}};
+
 class Tracer
 {
  public:
   Tracer(EdgelMap& map, const cv::Size& size)
-      : index_(cv::Mat1i::zeros(size.height + 2 * PADDING, size.width + 2 * PADDING))
+      : stride_(size.width + 2 * PADDING), index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING), 0)
   {
-    map.visit(0, 0, size.width - 1, size.height - 1, [&](const Edgel& edgel) {
-      edgels_.push_back(edgel);
-      cellOf(edgel) = static_cast<int>(edgels_.size());
+    map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) {
+      for (std::size_t i = 0; i < tile.size(); ++i)
+      {
+        edgels_.push_back(tile[i]);
+        index_[cellOf(edgels_.back())] = static_cast<int>(edgels_.size());
+      }
     });
     visited_.assign(edgels_.size(), 0);
+    for (std::size_t i = 0; i < AROUND.size(); ++i)
+    {
+      offsets_[i] = AROUND[i][1] * stride_ + AROUND[i][0];
+    }
   }
 
   template <typename Visitor>
@@ -72,9 +87,9 @@ class Tracer
   }
 
  private:
-  int& cellOf(const Edgel& edgel)
+  std::size_t cellOf(const Edgel& edgel) const
   {
-    return index_(cvRound(edgel.y) + PADDING, cvRound(edgel.x) + PADDING);
+    return static_cast<std::size_t>((cvRound(edgel.y) + PADDING) * stride_ + cvRound(edgel.x) + PADDING);
   }
 
   /** An edgel is on one chain only. */
@@ -82,7 +97,7 @@ class Tracer
   {
     const auto i = static_cast<int>(&edgel - edgels_.data());
     visited_[i] = 1;
-    int& cell = cellOf(edgel);
+    int& cell = index_[cellOf(edgel)];
     cell = cell == i + 1 ? 0 : cell;
   }
 
@@ -91,10 +106,10 @@ class Tracer
     const Edgel* here = &start;
     while (true)
     {
-      const Edgel* next = successor(*here, direction, 1);
+      const Edgel* next = successor(*here, direction, 0, NEAREST);
       if (next == nullptr && chain.size() >= FIRM_CHAIN)
       {
-        next = successor(*here, direction, PADDING);
+        next = successor(*here, direction, NEAREST, AROUND.size());
       }
       if (next == nullptr)
       {
@@ -109,78 +124,77 @@ class Tracer
   }
 
   /** The next edgel along the edge: ahead in one of the pixels around. */
-  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, int reach) const
+  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::size_t from, std::size_t to) const
   {
-    const int* middle = &index_(cvRound(here.y) + PADDING, cvRound(here.x) + PADDING);
-    const auto stride = static_cast<std::ptrdiff_t>(index_.step1());
+    const int* middle = &index_[cellOf(here)];
     const Edgel* best = nullptr;
     float best_cost = std::numeric_limits<float>::infinity();
-    for (int dy = -reach; dy <= reach; ++dy)
+    for (std::size_t i = from; i < to; ++i)
     {
-      for (int dx = -reach; dx <= reach; ++dx)
+      const int cell = middle[offsets_[i]];
+      if (cell == 0 ||
+          static_cast<float>(AROUND[i][0]) * direction.x + static_cast<float>(AROUND[i][1]) * direction.y <= 0)
       {
-        const int cell = middle[dy * stride + dx];
-        if (cell == 0 || static_cast<float>(dx) * direction.x + static_cast<float>(dy) * direction.y <= 0)
-        {
-          continue;
-        }
-        const Edgel& edgel = edgels_[cell - 1];
-        const float step_x = edgel.x - here.x;
-        const float step_y = edgel.y - here.y;
-        const float along = step_x * direction.x + step_y * direction.y;
-        const float across = std::abs(step_x * here.nx + step_y * here.ny);
-        const float cost = across + .5F * along;
-        if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
-            std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
-        {
-          best_cost = cost;
-          best = &edgel;
-        }
+        continue;
+      }
+      const Edgel& edgel = edgels_[cell - 1];
+      const float step_x = edgel.x - here.x;
+      const float step_y = edgel.y - here.y;
+      const float along = step_x * direction.x + step_y * direction.y;
+      const float across = std::abs(step_x * here.nx + step_y * here.ny);
+      const float cost = across + .5F * along;
+      if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
+          std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
+      {
+        best_cost = cost;
+        best = &edgel;
       }
     }
     return best;
   }
 
-  cv::Mat1i index_;  // of the edgel in each pixel that is on no chain yet, from 1; with a border
+  int stride_;
+  std::vector<int> index_;  // of the edgel in each pixel that is on no chain yet, from 1; with a border
   std::vector<Edgel> edgels_;
   std::vector<char> visited_;
+  std::array<std::ptrdiff_t, AROUND.size()> offsets_;
 };
 
-/** Tangents along a chain, smoothed. */
-std::vector<Link> tangents(const std::vector<const Edgel*>& chain)
+/** Tangents along chains, smoothed; the memory serves one chain after the other. */
+class Tangents
 {
-  std::vector<double> raw(chain.size());
-  for (std::size_t i = 0; i < chain.size(); ++i)
+ public:
+  const std::vector<Link>& of(const std::vector<const Edgel*>& chain)
   {
-    double angle = fastAngle(-chain[i]->ny, chain[i]->nx) * (CV_PI / 180);
-    if (i == 0)
-    {
-      const Edgel& next = *chain[1];
-      const double dx = next.x - chain[0]->x;
-      const double dy = next.y - chain[0]->y;
-      angle += dx * -chain[0]->ny + dy * chain[0]->nx < 0 ? CV_PI : 0;
-    }
-    else
+    const std::size_t count = chain.size();
+    raw_.resize(count);
+    std::transform(chain.begin(), chain.end(), raw_.begin(),
+                   [](const Edgel* edgel) { return fastAngle(-edgel->ny, edgel->nx) * (CV_PI / 180); });
+    const Edgel& first = *chain[0];
+    const Edgel& second = *chain[1];
+    raw_[0] += (second.x - first.x) * -first.ny + (second.y - first.y) * first.nx < 0 ? CV_PI : 0;
+    for (std::size_t i = 1; i < count; ++i)
     {
       // Along the chain the tangent turns little, whichever side is brighter.
-      angle -= CV_PI * cvRound((angle - raw[i - 1]) * (1 / CV_PI));
+      raw_[i] -= CV_PI * cvRound((raw_[i] - raw_[i - 1]) * (1 / CV_PI));
     }
-    raw[i] = angle;
-  }
-  std::vector<Link> links(chain.size());
-  for (std::size_t i = 0; i < chain.size(); ++i)
-  {
-    const std::size_t from = i >= 2 ? i - 2 : 0;
-    const std::size_t to = std::min(chain.size(), i + 3);
-    double sum = 0;
-    for (std::size_t j = from; j < to; ++j)
+    links_.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
     {
-      sum += raw[j];
+      const std::size_t from = i >= REACH ? i - REACH : 0;
+      const std::size_t to = std::min(count, i + REACH + 1);
+      links_[i] = {chain[i],
+                   std::accumulate(raw_.begin() + from, raw_.begin() + to, 0.) / static_cast<double>(to - from)};
     }
-    links[i] = {chain[i], sum / static_cast<double>(to - from)};
+    return links_;
   }
-  return links;
-}
+
+ private:
+  static constexpr std::size_t REACH = 2;  // of the smoothing, edgels
+
+  std::vector<double> raw_;
+  std::vector<Link> links_;
+};
 
 EdgeArc makeArc(const std::vector<Link>& links, std::size_t from, std::size_t to, int chain)
 {
@@ -264,8 +278,9 @@ std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size)
 {
   std::vector<EdgeArc> arcs;
   int chain = 0;
+  Tangents tangents;
   Tracer tracer(map, size);
-  tracer.chains([&](const std::vector<const Edgel*>& edgels) { cutChain(tangents(edgels), chain, arcs); });
+  tracer.chains([&](const std::vector<const Edgel*>& edgels) { cutChain(tangents.of(edgels), chain, arcs); });
   return arcs;
 }
 
