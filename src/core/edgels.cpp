@@ -99,52 +99,78 @@ unsigned edgelsOf(const Neighbours& neighbours)
 /** Edgels of a tile while they are found. */
 struct EdgelBuffer
 {
-  std::array<float, TILE * TILE> x, y, nx, ny;
-  std::size_t count = 0;
+  template <typename T>
+  using Values = std::array<T, TILE * TILE>;
 
-  /** Places the edgel of a pixel by a parabola through the magnitudes along the gradient. */
-  void add(const cv::Point& pixel, float here, const Neighbours& neighbours, unsigned lane)
+  std::size_t count = 0;
+  Values<float> x, y;  // of the pixel, then of the edgel [px]
+  Values<float> nx, ny;
+  Values<float> here, ahead, behind;  // magnitudes
+
+  void add(float pixel_x, float pixel_y, float magnitude, const Neighbours& neighbours, unsigned lane)
   {
-    const float ahead = neighbours.ahead[lane];
-    const float behind = neighbours.behind[lane];
-    const float curvature = ahead + behind - 2 * here;
-    const float vertex = (behind - ahead) / (2 * curvature);
-    const float bounded = vertex < -.7F ? -.7F : (vertex > .7F ? .7F : vertex);
-    const float offset = curvature < -1e-3F ? bounded : 0.F;
-    const float step = offset / std::max(std::abs(neighbours.nx[lane]), std::abs(neighbours.ny[lane]));
-    x[count] = static_cast<float>(pixel.x) + step * neighbours.nx[lane];
-    y[count] = static_cast<float>(pixel.y) + step * neighbours.ny[lane];
+    x[count] = pixel_x;
+    y[count] = pixel_y;
     nx[count] = neighbours.nx[lane];
     ny[count] = neighbours.ny[lane];
+    here[count] = magnitude;
+    ahead[count] = neighbours.ahead[lane];
+    behind[count] = neighbours.behind[lane];
     ++count;
   }
 };
+
+/** Places each edgel by a parabola through the magnitudes along the gradient. */
+OMR_VECTORIZED void placeEdgels(EdgelBuffer& buffer)
+{
+  for (std::size_t i = 0; i < buffer.count; ++i)
+  {
+    const float nx = buffer.nx[i];
+    const float ny = buffer.ny[i];
+    const float ax = std::abs(nx);
+    const float ay = std::abs(ny);
+    const float curvature = buffer.ahead[i] + buffer.behind[i] - 2 * buffer.here[i];
+    const float vertex = (buffer.behind[i] - buffer.ahead[i]) / (2 * curvature);
+    const float bounded = vertex < -.7F ? -.7F : (vertex > .7F ? .7F : vertex);
+    const float offset = curvature < -1e-3F ? bounded : 0.F;
+    const float step = offset / (ax >= ay ? ax : ay);
+    buffer.x[i] += step * nx;
+    buffer.y[i] += step * ny;
+  }
+}
 
 /** The edgels of the gradient pixels in an area. */
 OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, const cv::Point& origin, float threshold,
                                EdgelBuffer& buffer)
 {
   constexpr std::array<int, 4> BLOCKS = {1, 1 + LANES, 1 + 2 * LANES, SIDE - 1 - LANES};  // the last two overlap
+  std::array<unsigned, BLOCKS.size()> lanes;                                              // of the area
+  int next = area.x;
+  for (std::size_t b = 0; b < BLOCKS.size(); ++b)
+  {
+    const int first = std::max(next, BLOCKS[b]) - BLOCKS[b];
+    const int end = std::clamp(area.x + area.width - BLOCKS[b], first, LANES);
+    lanes[b] = (1U << end) - (1U << first);
+    next = BLOCKS[b] + LANES;
+  }
   for (int i = area.y; i < area.y + area.height; ++i)
   {
-    int next = area.x;
-    for (const int block : BLOCKS)
+    for (std::size_t b = 0; b < BLOCKS.size(); ++b)
     {
-      const int end = std::min(block + LANES, area.x + area.width);
-      const int first = std::max(next, block);
-      if (first < end && anyReaches(&tile.magnitude[i][block], threshold))
+      const int block = BLOCKS[b];
+      if (!anyReaches(&tile.magnitude[i][block], threshold))
       {
-        Neighbours neighbours;
-        compare(tile, i, block, threshold, neighbours);
-        unsigned edgels = edgelsOf(neighbours) & ((1U << (end - block)) - (1U << (first - block)));
-        for (; edgels != 0; edgels &= edgels - 1)
-        {
-          const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
-          const int j = block + static_cast<int>(lane);
-          buffer.add(origin + cv::Point(j - 1, i - 1), tile.magnitude[i][j], neighbours, lane);
-        }
+        continue;
       }
-      next = std::max(next, end);
+      Neighbours neighbours;
+      compare(tile, i, block, threshold, neighbours);
+      for (unsigned edgels = edgelsOf(neighbours) & lanes[b]; edgels != 0; edgels &= edgels - 1)
+      {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
+        const int j = block + static_cast<int>(lane);
+        buffer.add(static_cast<float>(origin.x + j - 1), static_cast<float>(origin.y + i - 1), tile.magnitude[i][j],
+                   neighbours, lane);
+      }
     }
   }
 }
@@ -238,6 +264,7 @@ void EdgelMap::compute(int col, int row, EdgelTile& edgels) const
   const cv::Point end(std::min(TILE, bgr.cols - 1 - origin.x) + 1, std::min(TILE, bgr.rows - 1 - origin.y) + 1);
   EdgelBuffer buffer;
   findEdgels(gradients, cv::Rect(first, cv::Size(end - first)), origin, threshold_, buffer);
+  placeEdgels(buffer);
   edgels.assign(buffer.count, buffer.x.data(), buffer.y.data(), buffer.nx.data(), buffer.ny.data());
 }
 
