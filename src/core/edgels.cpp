@@ -29,7 +29,6 @@ constexpr int LANES = 8;
 /** Pixels side by side, and the magnitudes one step along their gradient and against it. */
 struct Neighbours
 {
-  std::array<float, LANES> nx, ny;
   std::array<float, LANES> ahead, behind;
   std::array<std::int32_t, LANES> is_edgel;  // -1 or 0
 };
@@ -55,14 +54,11 @@ inline void compare(const GradientTile& tile, int i, int j, float threshold, Nei
   for (int lane = 0; lane < LANES; ++lane)
   {
     const float here = row[lane];
-    const float length = here * GradientTile::KERNEL_SUM;
-    const float nx = x[lane] / length;
-    const float ny = y[lane] / length;
-    const float ax = std::abs(nx);
-    const float ay = std::abs(ny);
+    const float ax = std::abs(x[lane]);
+    const float ay = std::abs(y[lane]);
     // The two neighbours along the gradient, interpolated on the ring of eight pixels.
-    const bool to_right = nx >= 0;
-    const bool to_below = ny >= 0;
+    const bool to_right = x[lane] >= 0;
+    const bool to_below = y[lane] >= 0;
     const bool along_row = ax >= ay;
     const float t = (along_row ? ay : ax) / (along_row ? ax : ay);
     const float left = row[lane - 1];
@@ -79,8 +75,6 @@ inline void compare(const GradientTile& tile, int i, int j, float threshold, Nei
     const float across_behind = to_below ? (to_right ? up_left : up_right) : (to_right ? down_left : down_right);
     const float ahead = (1 - t) * beside_ahead + t * across_ahead;
     const float behind = (1 - t) * beside_behind + t * across_behind;
-    neighbours.nx[lane] = nx;
-    neighbours.ny[lane] = ny;
     neighbours.ahead[lane] = ahead;
     neighbours.behind[lane] = behind;
     neighbours.is_edgel[lane] =
@@ -103,17 +97,18 @@ struct EdgelBuffer
   using Values = std::array<T, TILE * TILE>;
 
   std::size_t count = 0;
-  Values<float> x, y;  // of the pixel, then of the edgel [px]
-  Values<float> nx, ny;
+  Values<float> x, y;                 // of the pixel, then of the edgel [px]
+  Values<float> nx, ny;               // the gradient, then its direction
   Values<float> here, ahead, behind;  // magnitudes
 
-  void add(float pixel_x, float pixel_y, float magnitude, const Neighbours& neighbours, unsigned lane)
+  /** The gradient pixel (j, i), a lane of those compared. */
+  void add(const GradientTile& tile, const cv::Point& origin, int i, int j, const Neighbours& neighbours, unsigned lane)
   {
-    x[count] = pixel_x;
-    y[count] = pixel_y;
-    nx[count] = neighbours.nx[lane];
-    ny[count] = neighbours.ny[lane];
-    here[count] = magnitude;
+    x[count] = static_cast<float>(origin.x + j - 1);
+    y[count] = static_cast<float>(origin.y + i - 1);
+    nx[count] = tile.x[i][j];
+    ny[count] = tile.y[i][j];
+    here[count] = tile.magnitude[i][j];
     ahead[count] = neighbours.ahead[lane];
     behind[count] = neighbours.behind[lane];
     ++count;
@@ -125,8 +120,9 @@ OMR_VECTORIZED void placeEdgels(EdgelBuffer& buffer)
 {
   for (std::size_t i = 0; i < buffer.count; ++i)
   {
-    const float nx = buffer.nx[i];
-    const float ny = buffer.ny[i];
+    const float length = buffer.here[i] * GradientTile::KERNEL_SUM;
+    const float nx = buffer.nx[i] / length;
+    const float ny = buffer.ny[i] / length;
     const float ax = std::abs(nx);
     const float ay = std::abs(ny);
     const float curvature = buffer.ahead[i] + buffer.behind[i] - 2 * buffer.here[i];
@@ -136,6 +132,8 @@ OMR_VECTORIZED void placeEdgels(EdgelBuffer& buffer)
     const float step = offset / (ax >= ay ? ax : ay);
     buffer.x[i] += step * nx;
     buffer.y[i] += step * ny;
+    buffer.nx[i] = nx;
+    buffer.ny[i] = ny;
   }
 }
 
@@ -168,8 +166,7 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
       {
         const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
         const int j = block + static_cast<int>(lane);
-        buffer.add(static_cast<float>(origin.x + j - 1), static_cast<float>(origin.y + i - 1), tile.magnitude[i][j],
-                   neighbours, lane);
+        buffer.add(tile, origin, i, j, neighbours, lane);
       }
     }
   }
