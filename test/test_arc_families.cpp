@@ -7,6 +7,7 @@
 
 #include "arc_circles.h"
 #include "arc_search.h"
+#include "pixel_set.h"
 #include "render_target.h"
 
 namespace
@@ -50,6 +51,32 @@ TEST(EdgeArcs, straightEdgesAndCornersAreNone)
   const std::vector<cv::Point> outline = {{30, 40}, {190, 20}, {210, 150}, {60, 180}};
   cv::fillConvexPoly(image, outline, cv::Scalar::all(30), cv::LINE_AA);
   EXPECT_LT(turningOf(arcsOf(image)), 2);  // the four corners turn by 6.3 in all
+}
+
+TEST(PixelSet, tellsThePixelsAround)
+{
+  omr::PixelSet set({37, 20});
+  EXPECT_EQ(0U, set.around({0, 0}));
+  EXPECT_EQ(0U, set.around({36, 19}));
+  for (const cv::Point pixel : {cv::Point(0, 0), cv::Point(7, 5), cv::Point(36, 19)})
+  {
+    set.set(pixel);
+    for (int dy = -2; dy <= 2; ++dy)
+    {
+      for (int dx = -2; dx <= 2; ++dx)
+      {
+        const cv::Point from = pixel - cv::Point(dx, dy);
+        if (cv::Rect(0, 0, 37, 20).contains(from))
+        {
+          const std::uint32_t bit = 1U << (5 * (dy + 2) + dx + 2);
+          EXPECT_EQ(bit, set.around(from));
+          EXPECT_EQ(std::max(std::abs(dx), std::abs(dy)) == 1, (bit & omr::PixelSet::NEAREST) != 0);
+        }
+      }
+    }
+    set.reset(pixel);
+    EXPECT_EQ(0U, set.around(pixel));
+  }
 }
 
 TEST(ArcCircles, areWhereTheArcsAreDense)

@@ -1,28 +1,29 @@
 #include "edge_arcs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
 #include "fast_angle.h"
+#include "pixel_set.h"
 
 namespace omr
 {
 namespace
 {
-constexpr float MIN_COSINE = .85F;     // between the normals of neighbours along an edge
-constexpr float MAX_ACROSS = .8F;      // of a step, off the tangent [px]
-constexpr float MIN_ALONG = .3F;       // of a step [px]
-constexpr int PADDING = 2;             // around the image; a step over a gap is as long at most [px]
-constexpr std::size_t FIRM_CHAIN = 3;  // edgels on one side: from so many on, a gap is crossed
-constexpr std::size_t MIN_CHAIN = 10;  // edgels
-constexpr std::size_t MIN_ARC = 7;     // edgels
-constexpr std::size_t MAX_ARC = 60;    // edgels; what has not turned by then is straight
-constexpr double ARC_TURNING = .4;     // of a whole arc [rad]
-constexpr double MIN_TURNING = .2;     // of the last arc of a chain
-constexpr double SETBACK = .15;        // turning back that ends an arc [rad]
+constexpr float MIN_COSINE = .85F;        // between the normals of neighbours along an edge
+constexpr float MAX_ACROSS = .8F;         // of a step, off the tangent [px]
+constexpr float MIN_ALONG = .3F;          // of a step [px]
+constexpr int PADDING = PixelSet::REACH;  // around the image: a step over a gap is as long at most [px]
+constexpr std::size_t FIRM_CHAIN = 3;     // edgels on one side: from so many on, a gap is crossed
+constexpr std::size_t MIN_CHAIN = 10;     // edgels
+constexpr std::size_t MIN_ARC = 7;        // edgels
+constexpr std::size_t MAX_ARC = 60;       // edgels; what has not turned by then is straight
+constexpr double ARC_TURNING = .4;        // of a whole arc [rad]
+constexpr double MIN_TURNING = .2;        // of the last arc of a chain
+constexpr double SETBACK = .15;           // turning back that ends an arc [rad]
 constexpr std::size_t CORNER_REACH = 4;
 constexpr double CORNER = .9;  // turning over twice that many edgels [rad]
 
@@ -33,30 +34,24 @@ struct Link
   double angle = 0;  // of the tangent, continuous along the chain [rad]
 };
 
-/** From a pixel to those around it; the first NEAREST touch it. */
-constexpr std::size_t NEAREST = 8;
-constexpr std::array<std::array<int, 2>, 24> AROUND = {
-    {{-1, -1}, {0, -1},  {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1},  {-2, -2}, {-1, -2}, {0, -2}, {1, -2},
-     {2, -2},  {-2, -1}, {2, -1}, {-2, 0}, {2, 0}, {-2, 1}, {2, 1}, {-2, 2}, {-1, 2},  {0, 2},   {1, 2},  {2, 2}}};
-
 class Tracer
 {
  public:
   Tracer(EdgelMap& map, const cv::Size& size)
-      : stride_(size.width + 2 * PADDING), index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING), 0)
+      : stride_(size.width + 2 * PADDING),
+        index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING)),
+        free_(size)
   {
     map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) {
       for (std::size_t i = 0; i < tile.size(); ++i)
       {
         edgels_.push_back(tile[i]);
-        index_[cellOf(edgels_.back())] = static_cast<int>(edgels_.size());
+        const cv::Point pixel = pixelOf(edgels_.back());
+        index_[cellOf(pixel)] = static_cast<int>(edgels_.size());
+        free_.set(pixel);
       }
     });
     visited_.assign(edgels_.size(), 0);
-    for (std::size_t i = 0; i < AROUND.size(); ++i)
-    {
-      offsets_[i] = AROUND[i][1] * stride_ + AROUND[i][0];
-    }
   }
 
   template <typename Visitor>
@@ -87,9 +82,14 @@ class Tracer
   }
 
  private:
-  std::size_t cellOf(const Edgel& edgel) const
+  static cv::Point pixelOf(const Edgel& edgel)
   {
-    return static_cast<std::size_t>((cvRound(edgel.y) + PADDING) * stride_ + cvRound(edgel.x) + PADDING);
+    return {cvRound(edgel.x), cvRound(edgel.y)};
+  }
+
+  std::size_t cellOf(const cv::Point& pixel) const
+  {
+    return static_cast<std::size_t>(pixel.y + PADDING) * stride_ + pixel.x + PADDING;
   }
 
   /** An edgel is on one chain only. */
@@ -97,8 +97,11 @@ class Tracer
   {
     const auto i = static_cast<int>(&edgel - edgels_.data());
     visited_[i] = 1;
-    int& cell = index_[cellOf(edgel)];
-    cell = cell == i + 1 ? 0 : cell;
+    const cv::Point pixel = pixelOf(edgel);
+    if (index_[cellOf(pixel)] == i + 1)
+    {
+      free_.reset(pixel);
+    }
   }
 
   void follow(const Edgel& start, cv::Point2f direction, std::vector<const Edgel*>& chain)
@@ -106,10 +109,10 @@ class Tracer
     const Edgel* here = &start;
     while (true)
     {
-      const Edgel* next = successor(*here, direction, 0, NEAREST);
+      const Edgel* next = successor(*here, direction, PixelSet::NEAREST);
       if (next == nullptr && chain.size() >= FIRM_CHAIN)
       {
-        next = successor(*here, direction, NEAREST, AROUND.size());
+        next = successor(*here, direction, ~PixelSet::NEAREST);
       }
       if (next == nullptr)
       {
@@ -124,20 +127,20 @@ class Tracer
   }
 
   /** The next edgel along the edge: ahead in one of the pixels around. */
-  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::size_t from, std::size_t to) const
+  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
   {
-    const int* middle = &index_[cellOf(here)];
+    const cv::Point pixel = pixelOf(here);
     const Edgel* best = nullptr;
     float best_cost = std::numeric_limits<float>::infinity();
-    for (std::size_t i = from; i < to; ++i)
+    for (std::uint32_t bits = free_.around(pixel) & pixels; bits != 0; bits &= bits - 1)
     {
-      const int cell = middle[offsets_[i]];
-      if (cell == 0 ||
-          static_cast<float>(AROUND[i][0]) * direction.x + static_cast<float>(AROUND[i][1]) * direction.y <= 0)
+      const int bit = __builtin_ctz(bits);
+      const cv::Point offset(bit % PixelSet::SIDE - PixelSet::REACH, bit / PixelSet::SIDE - PixelSet::REACH);
+      if (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y <= 0)
       {
         continue;
       }
-      const Edgel& edgel = edgels_[cell - 1];
+      const Edgel& edgel = edgels_[index_[cellOf(pixel + offset)] - 1];
       const float step_x = edgel.x - here.x;
       const float step_y = edgel.y - here.y;
       const float along = step_x * direction.x + step_y * direction.y;
@@ -154,10 +157,10 @@ class Tracer
   }
 
   int stride_;
-  std::vector<int> index_;  // of the edgel in each pixel that is on no chain yet, from 1; with a border
+  std::vector<int> index_;  // of the edgel in each pixel, from 1; with a border
+  PixelSet free_;           // pixels whose edgel is on no chain yet
   std::vector<Edgel> edgels_;
   std::vector<char> visited_;
-  std::array<std::ptrdiff_t, AROUND.size()> offsets_;
 };
 
 /** Tangents along chains, smoothed; the memory serves one chain after the other. */

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "outdoor_omr/saddle_points.h"
 
@@ -21,17 +22,20 @@ class PointGrid
 {
  public:
   PointGrid(const std::vector<cv::Point>& points, const cv::Size& size)
-      : points_(points),
-        cols_(size.width / CELL + 1),
+      : cols_(size.width / CELL + 1),
         rows_(size.height / CELL + 1),
-        first_(cols_ * rows_, -1),
-        next_(points.size())
+        first_(cols_ * rows_ + 1, 0),
+        sorted_(points.size())
   {
-    for (std::size_t i = 0; i < points.size(); ++i)
+    for (const cv::Point& point : points)
     {
-      int& first = first_[points[i].y / CELL * cols_ + points[i].x / CELL];
-      next_[i] = first;
-      first = static_cast<int>(i);
+      ++first_[cellOf(point) + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<int> end(first_.begin() + 1, first_.end());
+    for (const cv::Point& point : points)
+    {
+      sorted_[--end[cellOf(point)]] = point;
     }
   }
 
@@ -55,16 +59,15 @@ class PointGrid
       found.clear();
       for (int y = std::max(0, row - reach); y <= std::min(rows_ - 1, row + reach); ++y)
       {
-        for (int x = std::max(0, col - reach); x <= std::min(cols_ - 1, col + reach); ++x)
+        const int from = first_[y * cols_ + std::max(0, col - reach)];
+        const int to = first_[y * cols_ + std::min(cols_ - 1, col + reach) + 1];
+        for (int i = from; i < to; ++i)
         {
-          for (int i = first_[y * cols_ + x]; i >= 0; i = next_[i])
+          const cv::Point offset = sorted_[i] - center;
+          const int squared = offset.dot(offset);
+          if (squared >= MIN_SQUARED && squared < MAX_SQUARED)
           {
-            const cv::Point offset = points_[i] - center;
-            const int squared = offset.dot(offset);
-            if (squared >= MIN_SQUARED && squared < MAX_SQUARED)
-            {
-              found.push_back({std::sqrt(static_cast<float>(squared)), offset});
-            }
+            found.push_back({std::sqrt(static_cast<float>(squared)), offset});
           }
         }
       }
@@ -85,34 +88,48 @@ class PointGrid
   static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
   static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
 
-  const std::vector<cv::Point>& points_;
+  int cellOf(const cv::Point& point) const
+  {
+    return point.y / CELL * cols_ + point.x / CELL;
+  }
+
   int cols_;
   int rows_;
-  std::vector<int> first_;
-  std::vector<int> next_;
+  std::vector<int> first_;         // of the points of each cell, and the end of all
+  std::vector<cv::Point> sorted_;  // by cells, row by row
 };
 
-/** Grey levels by which the seven squares around the corner alternate. */
-float alternation(const cv::Mat& grey, const LocalFrame& frame)
+/** Grey levels by which the seven squares around the corner alternate, or 0 if by less than the least gap. */
+float alternation(const cv::Mat& grey, const LocalFrame& frame, float least_gap)
 {
+  struct Square
+  {
+    float u, v;
+    bool is_like_first;
+  };
+  constexpr std::array<Square, 5> OTHERS = {
+      {{-0.5F, -0.5F, true}, {0.5F, -0.5F, false}, {1.5F, 0.5F, false}, {0.5F, 1.5F, false}, {1.5F, 1.5F, true}}};
   const auto sample = [&](float u, float v) {
     const cv::Point2f point = frame.at(u, v);
     return sampleGrey(grey, point.x, point.y);
   };
-  const float q1 = sample(0.5F, 0.5F);
-  const float q2 = sample(-0.5F, 0.5F);
-  const float q3 = sample(-0.5F, -0.5F);
-  const float q4 = sample(0.5F, -0.5F);
-  const float inner = std::max(std::min(q1, q3) - std::max(q2, q4), std::min(q2, q4) - std::max(q1, q3));
-  if (inner <= 0)
+  const float first = sample(0.5F, 0.5F);
+  const float second = sample(-0.5F, 0.5F);
+  const float sign = first > second ? 1 : -1;
+  float light = sign * first;  // the darkest of the light squares, as seen with that sign
+  float dark = sign * second;
+  // In texture the first two squares tell already.
+  for (auto square = OTHERS.begin(); light - dark >= least_gap; ++square)
   {
-    return 0;
+    if (square == OTHERS.end())
+    {
+      return light - dark;
+    }
+    const float value = sign * sample(square->u, square->v);
+    light = square->is_like_first ? std::min(light, value) : light;
+    dark = square->is_like_first ? dark : std::max(dark, value);
   }
-  const float n1 = sample(1.5F, 0.5F);
-  const float n2 = sample(0.5F, 1.5F);
-  const float n3 = sample(1.5F, 1.5F);
-  return std::max(std::min({q1, q3, n3}) - std::max({q2, q4, n1, n2}),
-                  std::min({q2, q4, n1, n2}) - std::max({q1, q3, n3}));
+  return 0;
 }
 
 /** The first frame, nearest neighbours first, in which the squares alternate. */
@@ -136,7 +153,7 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
       {
         std::swap(frame.u, frame.v);
       }
-      const float gap = alternation(grey, frame);
+      const float gap = alternation(grey, frame, least_gap);
       if (gap >= least_gap)
       {
         seed = {frame, true, static_cast<int>(gap)};
