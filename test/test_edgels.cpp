@@ -121,6 +121,23 @@ TEST(Edgels, forksCountTheirLooksApartWhoeverComputesTheTiles)
   }
 }
 
+TEST(Edgels, computedAheadAreTheSameAndCountNoLooks)
+{
+  TargetScene scene;
+  scene.noise = 6;
+  const cv::Mat image = renderTarget(scene);
+  EdgelMap ahead(image);
+  ahead.computeAll();
+  EXPECT_EQ(0U, ahead.looks());
+  EdgelMap lazy(image);
+  std::array<std::vector<float>, 2> places;
+  ahead.visit(0, 0, 479, 359, [&](const Edgel& edgel) { places[0].push_back(edgel.x); });
+  lazy.visit(0, 0, 479, 359, [&](const Edgel& edgel) { places[1].push_back(edgel.x); });
+  EXPECT_FALSE(places[0].empty());
+  EXPECT_EQ(places[1], places[0]);
+  EXPECT_EQ(lazy.looks(), ahead.looks());
+}
+
 TEST(Edgels, tinyImages)
 {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 50), cv::Size(31, 3)})

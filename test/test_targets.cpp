@@ -12,7 +12,7 @@ using omr::Target;
 
 namespace
 {
-std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
+omr::RegionMap regionsOf(const cv::Mat& image, const Settings& settings)
 {
   const cv::Mat filtered = omr::filterImage(image, settings.filter, settings.filter_size);
   const cv::Mat edges = omr::edgeMask(filtered, omr::edgeThreshold(settings));
@@ -26,7 +26,12 @@ std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settin
       regions.regions.push_back(omr::toRegion(sums));
     }
   }
-  return omr::findTargets(omr::makeFrame(image), regions, {}, settings);
+  return regions;
+}
+
+std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
+{
+  return omr::findTargets(omr::makeFrame(image), regionsOf(image, settings), {}, settings);
 }
 
 void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1)
@@ -328,6 +333,41 @@ TEST(Targets, noneInCirclesThatAreNotConcentric)
   cv::circle(image, {240, 180}, 90, cv::Scalar::all(230), cv::FILLED, cv::LINE_AA);
   cv::circle(image, {200, 200}, 40, cv::Scalar(30, 30, 200), cv::FILLED, cv::LINE_AA);
   EXPECT_TRUE(find(image).empty());
+}
+
+TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
+{
+  TargetScene scene;
+  scene.homography = tiltedView({240, 180}, .5, .4, 1, 900);
+  scene.occluder = .3;
+  const cv::Mat image = renderTarget(scene);
+  const omr::RegionMap regions = regionsOf(image, Settings());
+  const std::vector<Target> plain = find(image);
+  ASSERT_EQ(1U, plain.size());
+  for (const bool with_regions : {false, true})
+  {
+    omr::TargetSearch search(image, Settings());
+    search.lookAtImage();
+    if (with_regions)
+    {
+      search.lookAtRegions(regions);
+    }
+    const std::vector<Target> ahead = search.finish(regions, {});
+    ASSERT_EQ(1U, ahead.size());
+    EXPECT_EQ(plain[0].colors, ahead[0].colors);
+    EXPECT_EQ(plain[0].center, ahead[0].center);
+  }
+}
+
+TEST(Targets, lookingAheadAtWhatIsNoColourImageDoesNothing)
+{
+  for (const cv::Mat& image : {cv::Mat(), cv::Mat(40, 40, CV_8UC1, cv::Scalar::all(9))})
+  {
+    omr::TargetSearch search(image, Settings());
+    search.lookAtImage();
+    search.lookAtRegions({});
+    EXPECT_TRUE(search.finish({}, {}).empty());
+  }
 }
 
 TEST(Targets, survivesTinyImages)

@@ -15,7 +15,7 @@
 namespace omr
 {
 /** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. Not thread-safe;
- * targets are searched in a second thread while boards are. */
+ * targets are searched in a second thread beside all other steps. */
 class Detector
 {
  public:
@@ -38,8 +38,8 @@ class Detector
   const FillPipeline& pipeline() const;
 
  private:
-  Markers findMarkers(const Frame& frame, const RegionMap& regions, const Settings& settings,
-                      std::vector<StepTime>& times) const;
+  Markers findMarkers(const cv::Mat& bgr, const Settings& settings, const FillPipeline::Outputs& outputs,
+                      RegionMap& regions, std::vector<StepTime>& times);
 
   FillPipeline pipeline_;
   MarkerNetwork network_ = defaultMarkerNetwork();

@@ -23,21 +23,24 @@ namespace omr
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
                                 const Settings& settings);
 
-/** The same in two parts, of which the first may run beside the search for checkerboards, in a thread of its own. */
+/** The same in parts, of which all but the last may run beside other work, in a thread of their own. */
 class TargetSearch
 {
  public:
-  /** The parameters must outlive this. */
-  TargetSearch(const Frame& frame, const RegionMap& regions, const Settings& settings);
+  /** @param bgr H x W, CV_8UC3; shared, not copied. */
+  TargetSearch(const cv::Mat& bgr, const Settings& settings);
   ~TargetSearch();
   TargetSearch(const TargetSearch&) = delete;
   TargetSearch& operator=(const TargetSearch&) = delete;
 
-  /** Grows the seeds that promise most. finish() gives the same with and without it. */
-  void lookAhead();
+  /** Finds most targets; the image suffices for that. finish() gives the same with and without it. */
+  void lookAtImage();
+
+  /** Grows the regions that promise most; likewise. */
+  void lookAtRegions(const RegionMap& regions);
 
   /** What findTargets() gives. */
-  std::vector<Target> finish(const std::vector<Checkerboard>& boards);
+  std::vector<Target> finish(const RegionMap& regions, const std::vector<Checkerboard>& boards);
 
  private:
   struct State;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "arc_circles.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -28,6 +30,43 @@ struct Run
   double turning = 0;
 };
 
+/** The middles of arcs, each of their values side by side. */
+struct Middles
+{
+  explicit Middles(const std::vector<EdgeArc>& arcs)
+  {
+    for (const EdgeArc& arc : arcs)
+    {
+      x.push_back(arc.middle.x);
+      y.push_back(arc.middle.y);
+      inwards_x.push_back(arc.inwards.x);
+      inwards_y.push_back(arc.inwards.y);
+    }
+  }
+
+  std::vector<double> x, y;
+  std::vector<double> inwards_x, inwards_y;
+};
+
+/** Of each arc, whether it runs along a family's circle in its middle, concave to the centre. */
+OMR_VECTORIZED void findAlong(const Middles& middles, const ShapeVector& source, std::int64_t* is_along)
+{
+  const ShapeVector shape = source;
+  const double* x = middles.x.data();
+  const double* y = middles.y.data();
+  const double* inwards_x = middles.inwards_x.data();
+  const double* inwards_y = middles.inwards_y.data();
+  const std::size_t size = middles.x.size();
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    const double gx = shape[0] * x[i] + shape[1] * y[i] - shape[3];
+    const double gy = shape[1] * x[i] + shape[2] * y[i] - shape[4];
+    const double cross = inwards_x[i] * gy - inwards_y[i] * gx;
+    const bool is_parallel = cross * cross < MAX_MIDDLE_SINE * MAX_MIDDLE_SINE * (gx * gx + gy * gy);
+    is_along[i] = is_parallel & (inwards_x[i] * gx + inwards_y[i] * gy < 0) ? 1 : 0;
+  }
+}
+
 bool liesOn(const ArcSums& sums, const ShapeVector& shape, const RingFamily& family)
 {
   if (sums.squaredSine(shape) > MAX_SINE * MAX_SINE)
@@ -48,7 +87,8 @@ struct Hypothesis
 class Search
 {
  public:
-  explicit Search(const std::vector<EdgeArc>& arcs) : arcs_(arcs), used_(arcs.size(), 0)
+  explicit Search(const std::vector<EdgeArc>& arcs)
+      : arcs_(arcs), middles_(arcs), is_along_(arcs.size()), used_(arcs.size(), 0)
   {
     for (std::size_t i = 0; i < arcs.size(); ++i)
     {
@@ -138,44 +178,37 @@ class Search
     }
   }
 
-  bool belongs(std::size_t arc, const Hypothesis& hypothesis) const
+  /** Calls visitor(index) for the arcs of a hypothesis. At their middles first: few have the direction there. */
+  template <typename Visitor>
+  void visitArcs(const Hypothesis& hypothesis, Visitor&& visitor)
   {
-    // At its middle first: few arcs have the direction.
-    const ShapeVector& shape = hypothesis.shape;
-    const EdgeArc& candidate = arcs_[arc];
-    const cv::Point2d& p = candidate.middle;
-    const double gx = shape[0] * p.x + shape[1] * p.y - shape[3];
-    const double gy = shape[1] * p.x + shape[2] * p.y - shape[4];
-    const double cross = candidate.inwards.x * gy - candidate.inwards.y * gx;
-    return cross * cross < MAX_MIDDLE_SINE * MAX_MIDDLE_SINE * (gx * gx + gy * gy) &&
-           candidate.inwards.x * gx + candidate.inwards.y * gy < 0 && used_[arc] == 0 &&
-           liesOn(candidate.sums, shape, hypothesis.family);
-  }
-
-  double turningOf(const Hypothesis& hypothesis) const
-  {
-    double turning = 0;
+    findAlong(middles_, hypothesis.shape, is_along_.data());
     for (std::size_t i = 0; i < arcs_.size(); ++i)
     {
-      turning += belongs(i, hypothesis) ? arcs_[i].turning : 0;
+      if (is_along_[i] != 0 && used_[i] == 0 && liesOn(arcs_[i].sums, hypothesis.shape, hypothesis.family))
+      {
+        visitor(i);
+      }
     }
+  }
+
+  double turningOf(const Hypothesis& hypothesis)
+  {
+    double turning = 0;
+    visitArcs(hypothesis, [&](std::size_t i) { turning += arcs_[i].turning; });
     return turning;
   }
 
-  void refine(Hypothesis& hypothesis) const
+  void refine(Hypothesis& hypothesis)
   {
     for (int round = 0; round < 2; ++round)
     {
       ArcSums sums;
       double largest = 1;
-      for (std::size_t i = 0; i < arcs_.size(); ++i)
-      {
-        if (belongs(i, hypothesis))
-        {
-          sums = sumOf(sums, arcs_[i].sums);
-          largest = std::max(largest, radiusOf(arcs_[i].sums, hypothesis.shape, hypothesis.family));
-        }
-      }
+      visitArcs(hypothesis, [&](std::size_t i) {
+        sums = sumOf(sums, arcs_[i].sums);
+        largest = std::max(largest, radiusOf(arcs_[i].sums, hypothesis.shape, hypothesis.family));
+      });
       Hypothesis next = hypothesis;
       if (!fitShape(sums, hypothesis.family.center, largest, next.shape, next.family))
       {
@@ -196,20 +229,18 @@ class Search
     ArcFamily result;
     result.family = hypothesis.family;
     std::vector<ArcRadius> circles;
-    for (std::size_t i = 0; i < arcs_.size(); ++i)
-    {
-      if (belongs(i, hypothesis))
-      {
-        circles.emplace_back(radiusOf(arcs_[i].sums, hypothesis.shape, hypothesis.family), arcs_[i].turning);
-        result.turning += arcs_[i].turning;
-        used_[i] = 1;
-      }
-    }
+    visitArcs(hypothesis, [&](std::size_t i) {
+      circles.emplace_back(radiusOf(arcs_[i].sums, hypothesis.shape, hypothesis.family), arcs_[i].turning);
+      result.turning += arcs_[i].turning;
+      used_[i] = 1;
+    });
     result.radii = circlesOf(std::move(circles));
     return result;
   }
 
   const std::vector<EdgeArc>& arcs_;
+  Middles middles_;
+  std::vector<std::int64_t> is_along_;  // the hypothesis that was looked at last
   std::vector<Run> runs_;
   std::vector<char> used_;
 };

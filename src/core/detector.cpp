@@ -45,16 +45,29 @@ void Detector::setNetwork(const MarkerNetwork& network)
   network_ = network;
 }
 
-Markers Detector::findMarkers(const Frame& frame, const RegionMap& regions, const Settings& settings,
-                              std::vector<StepTime>& times) const
+Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, const FillPipeline::Outputs& outputs,
+                              RegionMap& regions, std::vector<StepTime>& times)
 {
-  Markers markers;
-  StopWatch watch(times);
-  TargetSearch targets(frame, regions, settings);
-  std::future<void> ahead;
-  if (settings.detect_checkerboards && settings.detect_targets)
+  // Half of the search for targets and the pyramid need no regions: they are made beside the fill pipeline.
+  TargetSearch targets(bgr, settings);
+  std::future<void> image_look;
+  if (settings.detect_targets)
   {
-    ahead = std::async([&targets] { targets.lookAhead(); });
+    image_look = std::async([&] { targets.lookAtImage(); });
+  }
+  std::future<Frame> pyramid = std::async([&] { return makeFrame(bgr); });
+  pipeline_.run(bgr, settings, outputs, regions, &times);
+  StopWatch watch(times);
+  const Frame frame = pyramid.get();
+  watch.step("pyramid");
+  Markers markers;
+  std::future<void> look;
+  if (settings.detect_targets)
+  {
+    look = std::async([&] {
+      image_look.get();
+      targets.lookAtRegions(regions);
+    });
   }
   if (settings.detect_checkerboards)
   {
@@ -63,11 +76,8 @@ Markers Detector::findMarkers(const Frame& frame, const RegionMap& regions, cons
   }
   if (settings.detect_targets)
   {
-    if (ahead.valid())
-    {
-      ahead.get();
-    }
-    markers.targets = targets.finish(markers.checkerboards);
+    look.get();
+    markers.targets = targets.finish(regions, markers.checkerboards);
     watch.step("targets");
   }
   return markers;
@@ -82,12 +92,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   outputs.edges = outputs.labels = settings.overlay_regions;
   outputs.network = candidates ? &network_ : nullptr;
   outputs.window_scores = &window_scores_;
-  std::future<Frame> pyramid = std::async([&bgr] { return makeFrame(bgr); });
-  pipeline_.run(bgr, settings, outputs, regions_, &times);
-  StopWatch pyramid_watch(times);
-  const Frame frame = pyramid.get();
-  pyramid_watch.step("pyramid");
-  Markers markers = findMarkers(frame, regions_, settings, times);
+  Markers markers = findMarkers(bgr, settings, outputs, regions_, times);
   if (candidates)
   {
     StopWatch watch(times);
@@ -95,8 +100,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     markRead(markers.candidates, markers.checkerboards, markers.targets);
     const auto detect = [&](const cv::Mat& enlarged) {
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
-      pipeline_.run(enlarged, settings, {}, enlarged_regions_);
-      return findMarkers(makeFrame(enlarged), enlarged_regions_, settings, own_times);
+      return findMarkers(enlarged, settings, {}, enlarged_regions_, own_times);
     };
     lookAgain(bgr, settings.candidate_looks, detect, markers);
     watch.step("second look");

@@ -1,31 +1,25 @@
 #include "edge_arcs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numeric>
 
+#include "edge_chains.h"
 #include "fast_angle.h"
-#include "pixel_set.h"
 
 namespace omr
 {
 namespace
 {
-constexpr float MIN_COSINE = .85F;        // between the normals of neighbours along an edge
-constexpr float MAX_ACROSS = .8F;         // of a step, off the tangent [px]
-constexpr float MIN_ALONG = .3F;          // of a step [px]
-constexpr int PADDING = PixelSet::REACH;  // around the image: a step over a gap is as long at most [px]
-constexpr std::size_t FIRM_CHAIN = 3;     // edgels on one side: from so many on, a gap is crossed
-constexpr std::size_t MIN_CHAIN = 10;     // edgels
-constexpr std::size_t MIN_ARC = 7;        // edgels
-constexpr std::size_t MAX_ARC = 60;       // edgels; what has not turned by then is straight
-constexpr double ARC_TURNING = .4;        // of a whole arc [rad]
-constexpr double MIN_TURNING = .2;        // of the last arc of a chain
-constexpr double SETBACK = .15;           // turning back that ends an arc [rad]
+constexpr std::size_t MIN_ARC = 7;   // edgels
+constexpr std::size_t MAX_ARC = 60;  // edgels; what has not turned by then is straight
+constexpr double ARC_TURNING = .4;   // of a whole arc [rad]
+constexpr double MIN_TURNING = .2;   // of the last arc of a chain
+constexpr double SETBACK = .15;      // turning back that ends an arc [rad]
 constexpr std::size_t CORNER_REACH = 4;
 constexpr double CORNER = .9;  // turning over twice that many edgels [rad]
+constexpr int PARTS = 8;       // of the chains, shared by the threads; the arcs do not depend on how many there are
 
 /** An edgel of a chain, its tangent along the chain. */
 struct Link
@@ -34,144 +28,14 @@ struct Link
   double angle = 0;  // of the tangent, continuous along the chain [rad]
 };
 
-class Tracer
-{
- public:
-  Tracer(EdgelMap& map, const cv::Size& size)
-      : stride_(size.width + 2 * PADDING),
-        index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING)),
-        free_(size)
-  {
-    map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) {
-      for (std::size_t i = 0; i < tile.size(); ++i)
-      {
-        edgels_.push_back(tile[i]);
-        const cv::Point pixel = pixelOf(edgels_.back());
-        index_[cellOf(pixel)] = static_cast<int>(edgels_.size());
-        free_.set(pixel);
-      }
-    });
-    visited_.assign(edgels_.size(), 0);
-  }
-
-  template <typename Visitor>
-  void chains(Visitor&& visitor)
-  {
-    std::vector<const Edgel*> forward;
-    std::vector<const Edgel*> chain;
-    for (std::size_t i = 0; i < edgels_.size(); ++i)
-    {
-      if (visited_[i] != 0)
-      {
-        continue;
-      }
-      const Edgel& start = edgels_[i];
-      leave(start);
-      forward.clear();
-      chain.clear();
-      follow(start, cv::Point2f(-start.ny, start.nx), forward);
-      follow(start, cv::Point2f(start.ny, -start.nx), chain);
-      std::reverse(chain.begin(), chain.end());
-      chain.push_back(&start);
-      chain.insert(chain.end(), forward.begin(), forward.end());
-      if (chain.size() >= MIN_CHAIN)
-      {
-        visitor(chain);
-      }
-    }
-  }
-
- private:
-  static cv::Point pixelOf(const Edgel& edgel)
-  {
-    return {cvRound(edgel.x), cvRound(edgel.y)};
-  }
-
-  std::size_t cellOf(const cv::Point& pixel) const
-  {
-    return static_cast<std::size_t>(pixel.y + PADDING) * stride_ + pixel.x + PADDING;
-  }
-
-  /** An edgel is on one chain only. */
-  void leave(const Edgel& edgel)
-  {
-    const auto i = static_cast<int>(&edgel - edgels_.data());
-    visited_[i] = 1;
-    const cv::Point pixel = pixelOf(edgel);
-    if (index_[cellOf(pixel)] == i + 1)
-    {
-      free_.reset(pixel);
-    }
-  }
-
-  void follow(const Edgel& start, cv::Point2f direction, std::vector<const Edgel*>& chain)
-  {
-    const Edgel* here = &start;
-    while (true)
-    {
-      const Edgel* next = successor(*here, direction, PixelSet::NEAREST);
-      if (next == nullptr && chain.size() >= FIRM_CHAIN)
-      {
-        next = successor(*here, direction, ~PixelSet::NEAREST);
-      }
-      if (next == nullptr)
-      {
-        return;
-      }
-      leave(*next);
-      chain.push_back(next);
-      const cv::Point2f tangent(-next->ny, next->nx);
-      direction = tangent.dot(direction) > 0 ? tangent : -tangent;
-      here = next;
-    }
-  }
-
-  /** The next edgel along the edge: ahead in one of the pixels around. */
-  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
-  {
-    const cv::Point pixel = pixelOf(here);
-    const Edgel* best = nullptr;
-    float best_cost = std::numeric_limits<float>::infinity();
-    for (std::uint32_t bits = free_.around(pixel) & pixels; bits != 0; bits &= bits - 1)
-    {
-      const int bit = __builtin_ctz(bits);
-      const cv::Point offset(bit % PixelSet::SIDE - PixelSet::REACH, bit / PixelSet::SIDE - PixelSet::REACH);
-      if (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y <= 0)
-      {
-        continue;
-      }
-      const Edgel& edgel = edgels_[index_[cellOf(pixel + offset)] - 1];
-      const float step_x = edgel.x - here.x;
-      const float step_y = edgel.y - here.y;
-      const float along = step_x * direction.x + step_y * direction.y;
-      const float across = std::abs(step_x * here.nx + step_y * here.ny);
-      const float cost = across + .5F * along;
-      if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
-          std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
-      {
-        best_cost = cost;
-        best = &edgel;
-      }
-    }
-    return best;
-  }
-
-  int stride_;
-  std::vector<int> index_;  // of the edgel in each pixel, from 1; with a border
-  PixelSet free_;           // pixels whose edgel is on no chain yet
-  std::vector<Edgel> edgels_;
-  std::vector<char> visited_;
-};
-
 /** Tangents along chains, smoothed; the memory serves one chain after the other. */
 class Tangents
 {
  public:
-  const std::vector<Link>& of(const std::vector<const Edgel*>& chain)
+  const std::vector<Link>& of(const Edgel* const* chain, std::size_t count)
   {
-    const std::size_t count = chain.size();
     raw_.resize(count);
-    std::transform(chain.begin(), chain.end(), raw_.begin(),
+    std::transform(chain, chain + count, raw_.begin(),
                    [](const Edgel* edgel) { return fastAngle(-edgel->ny, edgel->nx) * (CV_PI / 180); });
     const Edgel& first = *chain[0];
     const Edgel& second = *chain[1];
@@ -279,11 +143,34 @@ void cutChain(const std::vector<Link>& links, int& chain, std::vector<EdgeArc>& 
 
 std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size)
 {
+  const std::vector<Edgel> edgels = edgelsOf(map, size);
+  const Chains chains = followEdges(edgels, size);
+  const std::size_t count = chains.ends.size();
+  std::array<std::vector<EdgeArc>, PARTS> parts;
+  cv::parallel_for_(cv::Range(0, PARTS), [&](const cv::Range& range) {
+    Tangents tangents;
+    for (int part = range.start; part < range.end; ++part)
+    {
+      int chain = 0;
+      for (std::size_t i = count * part / PARTS; i < count * (part + 1) / PARTS; ++i)
+      {
+        const std::size_t begin = i > 0 ? chains.ends[i - 1] : 0;
+        cutChain(tangents.of(&chains.edgels[begin], chains.ends[i] - begin), chain, parts[part]);
+      }
+    }
+  });
   std::vector<EdgeArc> arcs;
-  int chain = 0;
-  Tangents tangents;
-  Tracer tracer(map, size);
-  tracer.chains([&](const std::vector<const Edgel*>& edgels) { cutChain(tangents.of(edgels), chain, arcs); });
+  int chain = 0;  // the last one so far
+  for (std::vector<EdgeArc>& part : parts)
+  {
+    const int before = chain;
+    for (EdgeArc& arc : part)
+    {
+      arc.chain += before;
+      chain = arc.chain;
+      arcs.push_back(arc);
+    }
+  }
   return arcs;
 }
 

@@ -250,6 +250,20 @@ const EdgelTile& EdgelMap::tile(int col, int row)
   return tile.edgels;
 }
 
+void EdgelMap::computeAll()
+{
+  cv::parallel_for_(cv::Range(0, shared_->grid.height), [&](const cv::Range& range) {
+    EdgelMap own = fork();
+    for (int row = range.start; row < range.end; ++row)
+    {
+      for (int col = 0; col < shared_->grid.width; ++col)
+      {
+        own.tile(col, row);
+      }
+    }
+  });
+}
+
 void EdgelMap::compute(int col, int row, EdgelTile& edgels) const
 {
   const cv::Mat& bgr = shared_->bgr;

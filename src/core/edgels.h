@@ -141,6 +141,9 @@ class EdgelMap
     visitTiles(left, top, right, bottom, visit_tile, max_tiles);
   }
 
+  /** Computes all tiles, in OpenCV's threads; that counts no looks. */
+  void computeAll();
+
   /** Calls visitor(const EdgelTile&) for the tiles that hold all edgels of an area, and others beside it. */
   template <typename Visitor>
   void visitTiles(double left, double top, double right, double bottom, Visitor&& visitor,

@@ -22,9 +22,18 @@ void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int mi
 RoundSeeds toRoundSeeds(const RegionMap& regions)
 {
   RoundSeeds seeds;
-  seeds.seeds = findRoundSeeds(regions.regions);
-  seeds.grown.resize(seeds.seeds.size());
+  addRoundSeeds(regions, seeds);
   return seeds;
+}
+
+void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds)
+{
+  if (!seeds.has_seeds)
+  {
+    seeds.seeds = findRoundSeeds(regions.regions);
+    seeds.grown.resize(seeds.seeds.size());
+    seeds.has_seeds = true;
+  }
 }
 
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)

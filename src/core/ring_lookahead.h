@@ -33,9 +33,13 @@ struct RoundSeeds
   std::vector<std::optional<GrownSeed>> grown;  // one a seed
   std::vector<GrownSeed> families;              // the one with most arcs first
   bool has_families = false;
+  bool has_seeds = false;
 };
 
 RoundSeeds toRoundSeeds(const RegionMap& regions);
+
+/** Finds the round seeds, if that was not done before. */
+void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 
 /** Finds and grows the families of arcs, from which most targets come, if that was not done before. */
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);

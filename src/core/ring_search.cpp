@@ -226,6 +226,7 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
 {
   growFamilies(map, bgr, min_rings, seeds);
+  addRoundSeeds(regions, seeds);
   Search search(map, bgr, boards, min_rings);
   search.tryFamilies(seeds.families);
   search.allow(CONCENTRIC_SHARE);

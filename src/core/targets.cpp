@@ -119,54 +119,59 @@ bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 
 struct TargetSearch::State
 {
-  State(const Frame& source, const RegionMap& source_regions, const Settings& settings)
-      : frame(source), regions(source_regions), min_rings(settings.target_min_rings)
+  State(cv::Mat image, const Settings& settings) : bgr(std::move(image)), min_rings(settings.target_min_rings)
   {
   }
 
   /** Whether there is anything to search; makes what the search needs. */
   bool prepare()
   {
-    if (!map && !frame.bgr.empty())
+    if (!map && !bgr.empty() && bgr.type() == CV_8UC3)
     {
-      map = std::make_unique<EdgelMap>(frame.bgr);
-      seeds = toRoundSeeds(regions);
+      map = std::make_unique<EdgelMap>(bgr);
     }
     return map != nullptr;
   }
 
-  const Frame& frame;
-  const RegionMap& regions;
+  cv::Mat bgr;
   int min_rings;
   std::unique_ptr<EdgelMap> map;
   RoundSeeds seeds;
 };
 
-TargetSearch::TargetSearch(const Frame& frame, const RegionMap& regions, const Settings& settings)
-    : state_(std::make_unique<State>(frame, regions, settings))
+TargetSearch::TargetSearch(const cv::Mat& bgr, const Settings& settings)
+    : state_(std::make_unique<State>(bgr, settings))
 {
 }
 
 TargetSearch::~TargetSearch() = default;
 
-void TargetSearch::lookAhead()
+void TargetSearch::lookAtImage()
 {
   if (state_->prepare())
   {
-    growFamilies(*state_->map, state_->frame.bgr, state_->min_rings, state_->seeds);
-    growConcentric(*state_->map, state_->frame.bgr, state_->min_rings, state_->seeds);
+    growFamilies(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
   }
 }
 
-std::vector<Target> TargetSearch::finish(const std::vector<Checkerboard>& boards)
+void TargetSearch::lookAtRegions(const RegionMap& regions)
+{
+  if (state_->prepare())
+  {
+    addRoundSeeds(regions, state_->seeds);
+    growConcentric(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
+  }
+}
+
+std::vector<Target> TargetSearch::finish(const RegionMap& regions, const std::vector<Checkerboard>& boards)
 {
   std::vector<Target> targets;
   if (!state_->prepare())
   {
     return targets;
   }
-  std::vector<RingCandidate> candidates = findRingCandidates(*state_->map, state_->frame.bgr, state_->regions,
-                                                             std::move(state_->seeds), boards, state_->min_rings);
+  std::vector<RingCandidate> candidates =
+      findRingCandidates(*state_->map, state_->bgr, regions, std::move(state_->seeds), boards, state_->min_rings);
   std::vector<Target> read(candidates.size());
   std::vector<char> is_target(candidates.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
@@ -188,7 +193,7 @@ std::vector<Target> TargetSearch::finish(const std::vector<Checkerboard>& boards
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
                                 const Settings& settings)
 {
-  return TargetSearch(frame, regions, settings).finish(boards);
+  return TargetSearch(frame.bgr, settings).finish(regions, boards);
 }
 
 }  // namespace omr

@@ -1,0 +1,163 @@
+#include "edge_chains.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "pixel_set.h"
+
+namespace omr
+{
+namespace
+{
+constexpr float MIN_COSINE = .85F;        // between the normals of neighbours along an edge
+constexpr float MAX_ACROSS = .8F;         // of a step, off the tangent [px]
+constexpr float MIN_ALONG = .3F;          // of a step [px]
+constexpr int PADDING = PixelSet::REACH;  // around the image: a step over a gap is as long at most [px]
+constexpr std::size_t FIRM_CHAIN = 3;     // edgels on one side: from so many on, a gap is crossed
+constexpr std::size_t MIN_CHAIN = 10;     // edgels
+
+class Tracer
+{
+ public:
+  Tracer(const std::vector<Edgel>& edgels, const cv::Size& size)
+      : edgels_(edgels),
+        stride_(size.width + 2 * PADDING),
+        index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING)),
+        free_(size),
+        visited_(edgels.size(), 0)
+  {
+    for (std::size_t i = 0; i < edgels.size(); ++i)
+    {
+      const cv::Point pixel = pixelOf(edgels[i]);
+      index_[cellOf(pixel)] = static_cast<int>(i) + 1;
+      free_.set(pixel);
+    }
+  }
+
+  Chains chains()
+  {
+    Chains chains;
+    std::vector<const Edgel*> forward;
+    std::vector<const Edgel*> backward;
+    for (std::size_t i = 0; i < edgels_.size(); ++i)
+    {
+      if (visited_[i] != 0)
+      {
+        continue;
+      }
+      const Edgel& start = edgels_[i];
+      leave(start);
+      forward.clear();
+      backward.clear();
+      follow(start, cv::Point2f(-start.ny, start.nx), forward);
+      follow(start, cv::Point2f(start.ny, -start.nx), backward);
+      if (backward.size() + 1 + forward.size() >= MIN_CHAIN)
+      {
+        chains.edgels.insert(chains.edgels.end(), backward.rbegin(), backward.rend());
+        chains.edgels.push_back(&start);
+        chains.edgels.insert(chains.edgels.end(), forward.begin(), forward.end());
+        chains.ends.push_back(chains.edgels.size());
+      }
+    }
+    return chains;
+  }
+
+ private:
+  static cv::Point pixelOf(const Edgel& edgel)
+  {
+    return {cvRound(edgel.x), cvRound(edgel.y)};
+  }
+
+  std::size_t cellOf(const cv::Point& pixel) const
+  {
+    return static_cast<std::size_t>(pixel.y + PADDING) * stride_ + pixel.x + PADDING;
+  }
+
+  /** An edgel is on one chain only. */
+  void leave(const Edgel& edgel)
+  {
+    const auto i = static_cast<int>(&edgel - edgels_.data());
+    visited_[i] = 1;
+    const cv::Point pixel = pixelOf(edgel);
+    if (index_[cellOf(pixel)] == i + 1)
+    {
+      free_.reset(pixel);
+    }
+  }
+
+  void follow(const Edgel& start, cv::Point2f direction, std::vector<const Edgel*>& chain)
+  {
+    const Edgel* here = &start;
+    while (true)
+    {
+      const Edgel* next = successor(*here, direction, PixelSet::NEAREST);
+      if (next == nullptr && chain.size() >= FIRM_CHAIN)
+      {
+        next = successor(*here, direction, ~PixelSet::NEAREST);
+      }
+      if (next == nullptr)
+      {
+        return;
+      }
+      leave(*next);
+      chain.push_back(next);
+      const cv::Point2f tangent(-next->ny, next->nx);
+      direction = tangent.dot(direction) > 0 ? tangent : -tangent;
+      here = next;
+    }
+  }
+
+  /** The next edgel along the edge: ahead in one of the pixels around. */
+  const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
+  {
+    const cv::Point pixel = pixelOf(here);
+    const Edgel* best = nullptr;
+    float best_cost = std::numeric_limits<float>::infinity();
+    for (std::uint32_t bits = free_.around(pixel) & pixels; bits != 0; bits &= bits - 1)
+    {
+      const int bit = __builtin_ctz(bits);
+      const cv::Point offset(bit % PixelSet::SIDE - PixelSet::REACH, bit / PixelSet::SIDE - PixelSet::REACH);
+      if (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y <= 0)
+      {
+        continue;
+      }
+      const Edgel& edgel = edgels_[index_[cellOf(pixel + offset)] - 1];
+      const float step_x = edgel.x - here.x;
+      const float step_y = edgel.y - here.y;
+      const float along = step_x * direction.x + step_y * direction.y;
+      const float across = std::abs(step_x * here.nx + step_y * here.ny);
+      const float cost = across + .5F * along;
+      if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
+          std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
+      {
+        best_cost = cost;
+        best = &edgel;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<Edgel>& edgels_;
+  int stride_;
+  std::vector<int> index_;  // of the edgel in each pixel, from 1; with a border
+  PixelSet free_;           // pixels whose edgel is on no chain yet
+  std::vector<char> visited_;
+};
+
+}  // namespace
+
+std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size)
+{
+  map.computeAll();
+  std::vector<Edgel> edgels;
+  map.visit(0, 0, size.width - 1, size.height - 1, [&](const Edgel& edgel) { edgels.push_back(edgel); });
+  return edgels;
+}
+
+Chains followEdges(const std::vector<Edgel>& edgels, const cv::Size& size)
+{
+  return Tracer(edgels, size).chains();
+}
+
+}  // namespace omr
