@@ -49,9 +49,13 @@ struct Middles
 };
 
 /** Of each arc, whether it runs along a family's circle in its middle, concave to the centre. */
-OMR_VECTORIZED void findAlong(const Middles& middles, const ShapeVector& source, std::int64_t* is_along)
+OMR_VECTORIZED void findAlong(const Middles& middles, const ShapeVector& shape, std::int64_t* is_along)
 {
-  const ShapeVector shape = source;
+  const double s11 = shape[0];
+  const double s12 = shape[1];
+  const double s22 = shape[2];
+  const double d1 = shape[3];
+  const double d2 = shape[4];
   const double* x = middles.x.data();
   const double* y = middles.y.data();
   const double* inwards_x = middles.inwards_x.data();
@@ -59,8 +63,8 @@ OMR_VECTORIZED void findAlong(const Middles& middles, const ShapeVector& source,
   const std::size_t size = middles.x.size();
   for (std::size_t i = 0; i < size; ++i)
   {
-    const double gx = shape[0] * x[i] + shape[1] * y[i] - shape[3];
-    const double gy = shape[1] * x[i] + shape[2] * y[i] - shape[4];
+    const double gx = s11 * x[i] + s12 * y[i] - d1;
+    const double gy = s12 * x[i] + s22 * y[i] - d2;
     const double cross = inwards_x[i] * gy - inwards_y[i] * gx;
     const bool is_parallel = cross * cross < MAX_MIDDLE_SINE * MAX_MIDDLE_SINE * (gx * gx + gy * gy);
     is_along[i] = is_parallel & (inwards_x[i] * gx + inwards_y[i] * gy < 0) ? 1 : 0;
