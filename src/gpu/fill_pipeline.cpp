@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "device_fill.h"
+#include "kernel_cache.h"
 #include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/window_scores.h"
 
@@ -50,6 +51,7 @@ std::unique_ptr<DeviceFill> openDevice(const std::vector<Device>& devices, std::
   {
     try
     {
+      fillKernelCache(device);
       auto fill = std::make_unique<DeviceFill>(device, device.isCpu() ? Geometry::strips : Geometry::words);
       name = device.description;
       return fill;
