@@ -29,7 +29,7 @@ PartCheckerboard flatBoard(int rows = 7, int cols = 9, double square = 0.04);
 class PartView
 {
  public:
-  explicit PartView(const Camera& camera, double noise_px = 0.05, std::uint64_t seed = 1);
+  explicit PartView(const Camera& camera, double noise_px = 0.03, std::uint64_t seed = 1);
 
   /**
    * @param half_turn the detector took the other one of two possible orders.

@@ -124,6 +124,25 @@ TEST(CornerFit, findsTheCornerInNoiseBlurAndUnevenLight)
   }
 }
 
+TEST(CornerFit, whatCoversAPartOfAnEdgeCountsLess)
+{
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200.3, 200.7}, 20, 20, 0);
+  struct Case
+  {
+    double along, most;
+  };
+  // With equal weights 0.55, 0.41 and 0.15 px.
+  for (const Case& one : {Case{0.35, 0.45}, {0.5, 0.3}, {0.65, 0.12}})
+  {
+    Render render({400, 400});
+    render.addBoard(5, 7, board);
+    render.addCircle(omr::test::project(board, 3 + one.along, 2.1), 4, cv::Matx33d::eye(), cv::Scalar::all(250));
+    const cv::Mat grey = omr::makeFrame(render.picture()).raw_grey;
+    const LocalFrame corner = frameAt(board, 3, 2);
+    EXPECT_LT(cv::norm(omr::fitCorner(grey, corner) - corner.node), one.most) << one.along;
+  }
+}
+
 TEST(CornerFit, staysPutWithoutEdgesAndAtThePicturesRim)
 {
   const cv::Mat flat(60, 60, CV_8UC1, cv::Scalar(90));

@@ -173,6 +173,22 @@ TEST(Pose, outliersAreRejected)
   }
 }
 
+TEST(Pose, pointsAsGoodAsTheirSigmaSaysAreNoOutliersBesideBetterOnes)
+{
+  const Camera camera(cameraInfo(), ImageKind::RAW);
+  cv::RNG random(5);
+  const cv::Affine3d truth = poseAt(0.1, -0.05, 3, 20, -25, 10);
+  std::vector<PointPair> pairs = pairsOf(innerCorners(flatBoard()), truth, camera, 0.002, random, 0.02);
+  for (const double x : {-0.3, 0.3})
+  {
+    pairs.push_back({{x, 0, 0}, camera.project({truth * cv::Point3d(x, 0, 0)}).front(), 0.06});
+    pairs.back().pixel += cv::Point2d(0.06, -0.06);
+  }
+  const std::vector<Pose> poses = solvePose(pairs, camera);
+  ASSERT_FALSE(poses.empty());
+  EXPECT_EQ(std::count(poses[0].used.begin(), poses[0].used.end(), true), 50);
+}
+
 TEST(Pose, halfOfThePointsWrongGiveNoPoseRatherThanAWrongOne)
 {
   const Camera camera(cameraInfo(), ImageKind::RAW);

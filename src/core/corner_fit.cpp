@@ -20,7 +20,14 @@ constexpr float MAX_REACH = 12;  // px; 16: 0.026 instead of 0.028 in the sun, 0
 constexpr float SOFTNESS = 1.85F;
 constexpr float BAND = 2.5F;      // of pixels along the edges [softness]; those farther off say nothing of the position
 constexpr float MAX_MOVE = 0.3F;  // squares
-constexpr int ROUNDS = 4;         // of which the first finds the grey values only; 3 are too few under hard shadow
+constexpr int ROUNDS = 5;         // the first finds the grey values only; 4 are too few under hard shadow
+// From this round on pixels that the picture lacks much at count less (Tukey): those of what covers a part of the
+// corner, or of a shadow's edge. Their limit: the contrast of the squares, and what noise there is. RMS 0.064 instead
+// of 0.072 px where things cover parts of boards, 0.058 instead of 0.064 under hard shadow; earlier, blurred ones
+// suffer.
+constexpr int FIRST_ROBUST = 3;
+constexpr float LIMIT = 2;        // of the difference between opposite quadrants and the others
+constexpr float LEAST_LIMIT = 8;  // grey levels, added to it
 constexpr int LANES = 8;
 constexpr int UNKNOWNS = 6;
 constexpr int MAX_PIXELS = 640;  // 25 x 25, rounded up to LANES
@@ -58,8 +65,8 @@ inline float clampToOne(float x)
   return 0.5F * (std::abs(x + 1) - std::abs(x - 1));
 }
 
-/** Adds up the equations of the picture as it is. */
-OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, Sums& sums)
+/** Adds up the equations of the picture as it is. @param per_limit 1 / grey levels that a pixel of weight 0 lacks. */
+OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float per_limit, Sums& sums)
 {
   const int groups = (window.count + LANES - 1) / LANES;
   for (int group = 0; group < groups; ++group)
@@ -76,14 +83,17 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, Sums& s
       // The integral of 15 / 8 (1 - x^2)^2, a bell much like the normal one, but without an exponential.
       const float a = x * (1.875F - xx * (1.25F - 0.375F * xx));
       const float b = y * (1.875F - yy * (1.25F - 0.375F * yy));
-      const float is_pixel = pixels.is_pixel[i];
-      by[0][i] = is_pixel;
-      by[1][i] = a * is_pixel;
-      by[2][i] = b * is_pixel;
-      by[3][i] = a * b * is_pixel;
-      by[4][i] = (picture[1] + picture[3] * b) * (-1.875F * is_pixel) * (1 - xx) * (1 - xx);
-      by[5][i] = (picture[2] + picture[3] * a) * (-1.875F * is_pixel) * (1 - yy) * (1 - yy);
-      rest[i] = (pixels.grey[i] - picture[0] - picture[1] * a - (picture[2] + picture[3] * a) * b) * is_pixel;
+      const float lacking = pixels.grey[i] - picture[0] - picture[1] * a - (picture[2] + picture[3] * a) * b;
+      const float share = lacking * per_limit;
+      const float inside = 1 - share * share;
+      const float weight = pixels.is_pixel[i] * 0.5F * (inside + std::abs(inside));  // root of Tukey's
+      by[0][i] = weight;
+      by[1][i] = a * weight;
+      by[2][i] = b * weight;
+      by[3][i] = a * b * weight;
+      by[4][i] = (picture[1] + picture[3] * b) * (-1.875F * weight) * (1 - xx) * (1 - xx);
+      by[5][i] = (picture[2] + picture[3] * a) * (-1.875F * weight) * (1 - yy) * (1 - yy);
+      rest[i] = lacking * weight;
     }
     for (int row = 0; row < UNKNOWNS; ++row)
     {
@@ -108,11 +118,11 @@ float total(const Lanes& lanes)
 }
 
 /** The change by least squares over all pixels; a picture without edges does not move. */
-Unknowns changeOf(const Window& window, const Unknowns& picture)
+Unknowns changeOf(const Window& window, const Unknowns& picture, float per_limit)
 {
   constexpr float RIDGE = 1e-3F;
   Sums sums;
-  addUp(window, picture, sums);
+  addUp(window, picture, per_limit, sums);
   cv::Matx<double, UNKNOWNS, UNKNOWNS> normal;
   cv::Vec<double, UNKNOWNS> right;
   for (int row = 0; row < UNKNOWNS; ++row)
@@ -183,7 +193,9 @@ cv::Point2f fitCorner(const cv::Mat& grey, const LocalFrame& corner)
   Unknowns picture;
   for (int round = 0; round < ROUNDS; ++round)
   {
-    picture += changeOf(window, picture);
+    const float limit = LIMIT * std::abs(picture[3]) + LEAST_LIMIT;
+    const float per_limit = round < FIRST_ROBUST ? 0 : 1 / limit;
+    picture += changeOf(window, picture, per_limit);
     if (!(std::max(std::abs(picture[4]), std::abs(picture[5])) < MAX_MOVE * std::min(square_u, square_v)))
     {
       return corner.node;
