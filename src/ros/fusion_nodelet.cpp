@@ -55,6 +55,7 @@ class FusionNodelet : public CheckedNodelet
     if (!file.empty())
     {
       descriptions_ = readParts(file);
+      settings_.copies = copiesOf(descriptions_);
     }
     settings_.sigma.position = readNumber(private_nh, "camera_position_sigma", 0.001, 1);
     settings_.sigma.rotation = readNumber(private_nh, "camera_rotation_sigma", 0.0005, 1);

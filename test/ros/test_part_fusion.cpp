@@ -16,7 +16,8 @@ using outdoor_omr::PartArray;
 
 namespace
 {
-const omr::FusionSettings SETTINGS{{0.001, 0.0005}, 1};
+const omr::FusionSettings SETTINGS{{0.001, 0.0005}, 1, {}};
+const omr::FusionSettings TWO_PLATES{{0.001, 0.0005}, 1, {{"plate", {2, 0.28}}}};
 
 /** A part 1 m before the camera, a millimetre uncertain. */
 Part partAt(const std::string& name, double x)
@@ -86,6 +87,52 @@ TEST(PartFusion, ofContradictionsIsNoAverage)
   EXPECT_NEAR(fused.parts.ambiguous[0].candidates[0].pose.pose.position.x, 0, 1e-9);
   EXPECT_NEAR(fused.parts.ambiguous[0].candidates[1].pose.pose.position.x, 0.05, 1e-9);
   EXPECT_FALSE(fused.report.parts.at(0).agree);
+}
+
+TEST(PartFusion, tellsCopiesApartByTheirPlaces)
+{
+  // The cameras list them in different orders, and each sees one that the other does not.
+  const FusedViews both = fuseViews({viewFrom("left", 0, {partAt("plate", -0.4), partAt("plate", 0.4)}),
+                                     viewFrom("right", 0.1, {partAt("plate", 0.301), partAt("plate", -0.501)})},
+                                    base(), TWO_PLATES);
+  EXPECT_TRUE(both.parts.ambiguous.empty());
+  ASSERT_EQ(both.parts.parts.size(), 2U);
+  EXPECT_NEAR(both.parts.parts[0].pose.pose.position.x, -0.4005, 1e-6);
+  EXPECT_NEAR(both.parts.parts[1].pose.pose.position.x, 0.4005, 1e-6);
+  ASSERT_EQ(both.report.parts.size(), 2U);
+  EXPECT_EQ(both.report.parts[0].frame_ids.size(), 2U);
+  const FusedViews apart = fuseViews(
+      {viewFrom("left", 0, {partAt("plate", -0.4)}), viewFrom("right", 0, {partAt("plate", 0.4)})}, base(), TWO_PLATES);
+  EXPECT_EQ(apart.parts.parts.size(), 2U);
+}
+
+TEST(PartFusion, copiesThatOverlapOrAreTooManyAreAContradiction)
+{
+  const FusedViews pushed = fuseViews(
+      {viewFrom("left", 0, {partAt("plate", 0)}), viewFrom("right", 0, {partAt("plate", 0.05)})}, base(), TWO_PLATES);
+  EXPECT_TRUE(pushed.parts.parts.empty());
+  EXPECT_EQ(pushed.parts.ambiguous.at(0).candidates.size(), 2U);
+  EXPECT_FALSE(pushed.report.parts.at(0).agree);
+  const FusedViews three = fuseViews(
+      {viewFrom("left", 0, {partAt("plate", 0), partAt("plate", 0.5)}), viewFrom("right", 0, {partAt("plate", 1)})},
+      base(), TWO_PLATES);
+  EXPECT_TRUE(three.parts.parts.empty());
+  EXPECT_EQ(three.parts.ambiguous.at(0).candidates.size(), 3U);
+}
+
+TEST(PartFusion, copiesAreThoseOfThePartsFile)
+{
+  omr::Part part;
+  part.name = "plate";
+  part.copies = 3;
+  part.checkerboards.resize(2);
+  part.checkerboards[0].rows = 7;
+  part.checkerboards[0].square = 0.04;
+  part.checkerboards[1].rows = 5;
+  part.checkerboards[1].square = 0.02;
+  const omr::Copies copies = omr::copiesOf({part}).at("plate");
+  EXPECT_EQ(copies.count, 3);
+  EXPECT_NEAR(copies.apart, 0.1, 1e-12);
 }
 
 TEST(PartFusion, takesTheCertainCameraWhereAnotherIsNot)
