@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <iostream>
 #include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "calibration.h"
 #include "detector_options.h"
@@ -43,7 +44,13 @@ std::string words(const cv::Size& size)
   return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
-/** Looks for the board in one image; of several the one with the most corners counts. */
+double areaOf(const omr::Checkerboard& board)
+{
+  return cv::contourArea(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()));
+}
+
+/** Looks for the board in one image; of several the largest counts: one with a corner hidden in the hand, not its copy
+ * on a screen behind (opencv-doc's left12). */
 void addView(const std::string& name, const cv::Size& squares, const omr::Settings& settings, omr::Detector& detector,
              Session& session)
 {
@@ -58,7 +65,7 @@ void addView(const std::string& name, const cv::Size& squares, const omr::Settin
   for (const omr::Checkerboard& board : detector.detect(image, settings).checkerboards)
   {
     const bool fits = board.rows == squares.height && board.cols == squares.width && countSeen(board) >= 4;
-    if (fits && (view.board == nullptr || countSeen(board) > countSeen(*view.board)))
+    if (fits && (view.board == nullptr || areaOf(board) > areaOf(*view.board)))
     {
       session.boards.push_back(board);
       view.board = &session.boards.back();
