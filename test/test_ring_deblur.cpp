@@ -4,6 +4,7 @@
 
 #include "color_key.h"
 #include "render_target.h"
+#include "ring_fit.h"
 
 namespace
 {
@@ -66,6 +67,28 @@ TEST(RingDeblur, completeRingsMissNone)
   scene.radii = {4, 12, 16, 25};
   scene.colors = "RWGP";
   EXPECT_EQ(0, omr::mergedBoundary(profileOf(scene), scene.radii));
+}
+
+TEST(RingFit, aRadiusThatCameAndWentLeavesNoTrace)
+{
+  std::vector<cv::Vec3d> samples;
+  for (int i = 0; i < 60; ++i)
+  {
+    samples.push_back(i < 10 || i > 30 ? cv::Vec3d(200, 5, -5) : cv::Vec3d(60, 40, 10));
+  }
+  omr::RingFit fit(samples, .5, {5, 15.5});
+  const omr::RingFit::Result two = fit.fit();
+  fit.insert(1, 9);
+  const omr::RingFit::Result three = fit.fit();
+  fit.erase(1);
+  const omr::RingFit::Result again = fit.fit();
+  ASSERT_EQ(3U, two.colors.size());
+  EXPECT_NEAR(60, two.colors[1][0], 6);
+  EXPECT_NEAR(40, two.colors[1][1], 6);
+  EXPECT_EQ(4U, three.colors.size());
+  EXPECT_LT(three.rms, two.rms);
+  EXPECT_EQ(two.rms, again.rms);
+  EXPECT_EQ(two.colors, again.colors);
 }
 
 int main(int argc, char** argv)

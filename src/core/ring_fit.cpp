@@ -1,0 +1,186 @@
+#include "ring_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vectorized.h"
+
+namespace omr
+{
+namespace
+{
+constexpr double BRIGHTNESS_BLUR = 1;  // deviation [px]
+constexpr double HUE_BLUR = 2;
+constexpr double PRIOR = .05;       // weight of the ring's blurred colour, in samples
+constexpr int DIRECTIONS = 32;      // of the integral over a disk
+constexpr double BLUR_REACH = 8.5;  // deviations: beyond it the blur changes a grey level by less than rounding does
+
+/** Sine and cosine of the directions. */
+const std::array<cv::Point2d, DIRECTIONS>& directions()
+{
+  static const auto DIRECTION = [] {
+    std::array<cv::Point2d, DIRECTIONS> table;
+    for (int i = 0; i < DIRECTIONS; ++i)
+    {
+      const double phi = 2 * CV_PI * (i + .5) / DIRECTIONS;
+      table[i] = {std::cos(phi), std::sin(phi)};
+    }
+    return table;
+  }();
+  return DIRECTION;
+}
+
+/** Share of the light of a disk of this radius that a point at distance r from its centre receives through the blur. */
+double blurredDisk(double r, double radius, double deviation)
+{
+  const double distance_to_edge = r - radius;
+  if (distance_to_edge > BLUR_REACH * deviation)
+  {
+    return 0;
+  }
+  if (radius > 4 * deviation)
+  {
+    return distance_to_edge < -BLUR_REACH * deviation ? 1
+                                                      : .5 * std::erfc(distance_to_edge / (deviation * std::sqrt(2.)));
+  }
+  // In polar coordinates around the point, the Gaussian's radial integral is known.
+  const auto beyond = [&](double distance) { return std::exp(-distance * distance / (2 * deviation * deviation)); };
+  double sum = 0;
+  for (const cv::Point2d& direction : directions())
+  {
+    const double across = r * direction.y;
+    const double inside = radius * radius - across * across;
+    if (inside > 0)
+    {
+      const double to = -r * direction.x + std::sqrt(inside);
+      const double from = -r * direction.x - std::sqrt(inside);
+      sum += to > 0 ? beyond(std::max(0., from)) - beyond(to) : 0;
+    }
+  }
+  return sum / DIRECTIONS;
+}
+
+constexpr std::size_t LANES = 4;  // rows of the equations are as long as vectors like
+
+/** Adds the products of a row with itself and with its values to the normal equations. */
+OMR_VECTORIZED void addRow(const double* row, std::size_t size, std::size_t stride, const cv::Vec2d& values,
+                           double* normal, cv::Vec2d* right)
+{
+  for (std::size_t a = 0; a < size; ++a)
+  {
+    const double factor = row[a];
+    double* sums = normal + a * stride;
+    for (std::size_t b = 0; b < stride; ++b)
+    {
+      sums[b] += factor * row[b];
+    }
+    right[a] += factor * values;
+  }
+}
+}  // namespace
+
+RingFit::RingFit(const std::vector<cv::Vec3d>& samples, double step, const std::vector<double>& radii)
+    : samples_(samples), step_(step), radii_(radii), disks_(radii.size())
+{
+  std::transform(radii.begin(), radii.end(), disks_.begin(), [&](double radius) { return blur(radius); });
+}
+
+void RingFit::insert(std::size_t k, double radius)
+{
+  radii_.insert(radii_.begin() + static_cast<std::ptrdiff_t>(k), radius);
+  disks_.insert(disks_.begin() + static_cast<std::ptrdiff_t>(k), blur(radius));
+}
+
+void RingFit::erase(std::size_t k)
+{
+  radii_.erase(radii_.begin() + static_cast<std::ptrdiff_t>(k));
+  disks_.erase(disks_.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+RingFit::Result RingFit::fit()
+{
+  Result result;
+  result.colors.resize(radii_.size() + 1);
+  result.rms = std::sqrt(fitPart(false, result.colors) + fitPart(true, result.colors));
+  return result;
+}
+
+RingFit::Blurred RingFit::blur(double radius) const
+{
+  Blurred disk;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+  {
+    disk[0].push_back(blurredDisk(static_cast<double>(i) * step_, radius, BRIGHTNESS_BLUR));
+    disk[1].push_back(blurredDisk(static_cast<double>(i) * step_, radius, HUE_BLUR));
+  }
+  return disk;
+}
+
+cv::Vec2d RingFit::value(std::size_t sample, bool is_hue) const
+{
+  const cv::Vec3d& color = samples_[sample];
+  return is_hue ? cv::Vec2d(color[1], color[2]) : cv::Vec2d(color[0], 0);
+}
+
+/** @return mean square of what is left. */
+double RingFit::fitPart(bool is_hue, std::vector<cv::Vec3d>& colors)
+{
+  const std::size_t size = radii_.size() + 1;
+  const std::size_t stride = (size + LANES - 1) / LANES * LANES;
+  shares_.assign(samples_.size() * stride, 0);
+  normal_.assign(size * stride, 0);
+  right_.assign(size, cv::Vec2d());
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+  {
+    double* row = &shares_[i * stride];
+    double inner = 0;
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      const double outer = k + 1 < size ? disks_[k][is_hue ? 1 : 0][i] : 1;
+      row[k] = outer - inner;
+      inner = outer;
+    }
+    addRow(row, size, stride, value(i, is_hue), normal_.data(), right_.data());
+  }
+  addPrior(is_hue, stride);
+  const auto rows = static_cast<int>(size);
+  cv::Mat solution;
+  cv::solve(cv::Mat(rows, rows, CV_64F, normal_.data(), stride * sizeof(double)),
+            cv::Mat(rows, 2, CV_64F, right_.data()), solution, cv::DECOMP_CHOLESKY);
+  for (int k = 0; k < rows; ++k)
+  {
+    const auto solved = solution.at<cv::Vec2d>(k);
+    colors[k] = is_hue ? cv::Vec3d(colors[k][0], solved[0], solved[1]) : cv::Vec3d(solved[0], 0, 0);
+  }
+  return squaredRest(is_hue, stride, solution) / static_cast<double>(samples_.size());
+}
+
+/** Pulls each ring's colour to that in its middle. */
+void RingFit::addPrior(bool is_hue, std::size_t stride)
+{
+  for (std::size_t k = 0; k < right_.size(); ++k)
+  {
+    const double outer = k < radii_.size() ? radii_[k] : radii_.back() + SURROUNDING;
+    const double middle = k == 0 ? 0 : .5 * (radii_[k - 1] + outer);
+    const auto i = std::min(static_cast<std::size_t>(std::lround(middle / step_)), samples_.size() - 1);
+    normal_[k * stride + k] += PRIOR;
+    right_[k] += PRIOR * value(i, is_hue);
+  }
+}
+
+double RingFit::squaredRest(bool is_hue, std::size_t stride, const cv::Mat& solution) const
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+  {
+    cv::Vec2d rest = -value(i, is_hue);
+    for (int k = 0; k < solution.rows; ++k)
+    {
+      rest += shares_[i * stride + k] * solution.at<cv::Vec2d>(k);
+    }
+    sum += rest.dot(rest);
+  }
+  return sum;
+}
+
+}  // namespace omr
