@@ -108,23 +108,27 @@ class Search
         runs_.push_back({arcs[i].sums, i, i, arcs[i].turning});
       }
     }
-    std::stable_sort(runs_.begin(), runs_.end(),
-                     [](const Run& left, const Run& right) { return left.turning > right.turning; });
+    for (const Run& run : runs_)
+    {
+      by_turning_.push_back(&run);
+    }
+    std::stable_sort(by_turning_.begin(), by_turning_.end(),
+                     [](const Run* left, const Run* right) { return left->turning > right->turning; });
   }
 
   std::vector<ArcFamily> run()
   {
     std::vector<Hypothesis> hypotheses;
     const std::size_t paired = std::min(MAX_PAIRED, runs_.size());
-    for (std::size_t i = 0; i < runs_.size() && runs_[i].turning > MIN_PAIRED; ++i)
+    for (std::size_t i = 0; i < by_turning_.size() && by_turning_[i]->turning > MIN_PAIRED; ++i)
     {
-      if (runs_[i].turning > MIN_ALONE)
+      if (by_turning_[i]->turning > MIN_ALONE)
       {
-        propose(runs_[i], nullptr, hypotheses);
+        propose(*by_turning_[i], nullptr, hypotheses);
       }
-      for (std::size_t j = i + 1; i < paired && j < paired && runs_[j].turning > MIN_PAIRED; ++j)
+      for (std::size_t j = i + 1; i < paired && j < paired && by_turning_[j]->turning > MIN_PAIRED; ++j)
       {
-        propose(runs_[i], &runs_[j], hypotheses);
+        propose(*by_turning_[i], by_turning_[j], hypotheses);
       }
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
@@ -246,6 +250,7 @@ class Search
   Middles middles_;
   std::vector<std::int64_t> is_along_;  // the hypothesis that was looked at last
   std::vector<Run> runs_;
+  std::vector<const Run*> by_turning_;  // the one that turns most first
   std::vector<char> used_;
 };
 }  // namespace

@@ -39,15 +39,28 @@ OMR_VECTORIZED void splitRows(const std::array<const uchar*, PIXELS>& rows, std:
 void readPixels(const cv::Mat& bgr, int left, int top, std::array<Plane, CHANNELS>& planes)
 {
   const int x0 = left - HALO;
-  const bool is_inside = x0 >= 0 && x0 + PIXELS <= bgr.cols;
+  const int first = std::min(PIXELS, std::max(0, -x0));  // of the tile's columns that lie in the image
+  const int last = std::max(first, std::min(PIXELS, bgr.cols - x0));
+  const bool is_inside = first == 0 && last == PIXELS;
   std::array<std::array<uchar, CHANNELS * PIXELS>, PIXELS> replicated;
   std::array<const uchar*, PIXELS> rows;
   for (int i = 0; i < PIXELS; ++i)
   {
     const auto* row = bgr.ptr<uchar>(std::clamp(top - HALO + i, 0, bgr.rows - 1));
-    for (int j = 0; j < PIXELS && !is_inside; ++j)
+    if (!is_inside)
     {
-      std::copy_n(row + CHANNELS * std::clamp(x0 + j, 0, bgr.cols - 1), CHANNELS, &replicated[i][CHANNELS * j]);
+      const auto copy = [&](int from, int to, int source) {
+        std::copy_n(row + CHANNELS * source, CHANNELS * (to - from), &replicated[i][CHANNELS * from]);
+      };
+      copy(first, last, x0 + first);
+      for (int j = 0; j < first; ++j)
+      {
+        copy(j, j + 1, 0);
+      }
+      for (int j = last; j < PIXELS; ++j)
+      {
+        copy(j, j + 1, bgr.cols - 1);
+      }
     }
     rows[i] = is_inside ? row + CHANNELS * x0 : replicated[i].data();
   }
