@@ -93,6 +93,38 @@ TEST(RingBoundaries, noneInNoise)
   EXPECT_TRUE(omr::findBoundaries(profile, omr::AngularSupport({}, 80), {}).empty());
 }
 
+TEST(RingProfile, interpolatesUpToTheLastPixel)
+{
+  cv::Mat image(17, 20, CV_8UC3);
+  cv::RNG(3).fill(image, cv::RNG::UNIFORM, 0, 256);
+  omr::RingFamily family;
+  family.center = {15.3, 12.6};
+  omr::RingProfile profile;
+  omr::sampleProfile(image, family, 8, profile);
+  int near_the_end = 0;
+  for (int angle = 0; angle < omr::RingProfile::ANGLES; ++angle)
+  {
+    const double phi = 2 * CV_PI * (angle + .5) / omr::RingProfile::ANGLES;
+    for (int i = 0; i < profile.inside[angle]; ++i)
+    {
+      const cv::Point2d point = family.center + i * profile.step * cv::Point2d(std::cos(phi), std::sin(phi));
+      const cv::Point pixel(static_cast<int>(point.x), static_cast<int>(point.y));
+      const cv::Point2d part = point - cv::Point2d(pixel);
+      near_the_end += pixel == cv::Point(18, 15) ? 1 : 0;
+      for (int c = 0; c < 3; ++c)
+      {
+        const auto at = [&](int x, int y) { return image.at<cv::Vec3b>(pixel.y + y, pixel.x + x)[c]; };
+        const double above = at(0, 0) * (1 - part.x) + at(1, 0) * part.x;
+        const double below = at(0, 1) * (1 - part.x) + at(1, 1) * part.x;
+        const double expected = above * (1 - part.y) + below * part.y;
+        EXPECT_NEAR(expected, profile.greyRay(angle)[i][c], .01);
+        EXPECT_NEAR(expected, omr::greyLevel(profile.ray(angle)[i][c]), .15);
+      }
+    }
+  }
+  EXPECT_GT(near_the_end, 0);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "vectorized.h"
 
@@ -80,42 +81,52 @@ OMR_VECTORIZED void placeSamples(const RingFamily& source, const cv::Point2d& di
   }
 }
 
-/** Bilinear sample at a place inside the image. */
-cv::Vec3f sample(const cv::Mat& bgr, float x, float y)
+/** The four bytes from an address on. */
+cv::v_float32x4 loadBytes(const uchar* bytes)
+{
+  return cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_load_expand_q(bytes)));
+}
+
+cv::v_float32x4 interpolate(const uchar* upper, const uchar* lower, const cv::v_float32x4& fx,
+                            const cv::v_float32x4& fy)
+{
+  const cv::v_float32x4 upper_left = loadBytes(upper);
+  const cv::v_float32x4 lower_left = loadBytes(lower);
+  const cv::v_float32x4 above = upper_left + fx * (loadBytes(upper + 3) - upper_left);
+  const cv::v_float32x4 below = lower_left + fx * (loadBytes(lower + 3) - lower_left);
+  return above + fy * (below - above);
+}
+
+/** Bilinear sample at a place inside the image: its three channels, and a fourth value without meaning. */
+cv::v_float32x4 sample(const cv::Mat& bgr, float x, float y)
 {
   // A place just before the last pixel may be rounded onto it.
   const int left = std::min(static_cast<int>(x), bgr.cols - 2);
   const int top = std::min(static_cast<int>(y), bgr.rows - 2);
-  const float fx = x - left;
-  const float fy = y - top;
+  const cv::v_float32x4 fx = cv::v_setall_f32(x - left);
+  const cv::v_float32x4 fy = cv::v_setall_f32(y - top);
   const auto* upper = bgr.ptr<uchar>(top) + 3 * left;
   const auto* lower = upper + bgr.step[0];
-  cv::Vec3f grey;
-  for (int c = 0; c < 3; ++c)
+  if (left + 2 == bgr.cols)  // no byte may be read behind the last row's end
   {
-    const float above = upper[c] + fx * (upper[c + 3] - upper[c]);
-    const float below = lower[c] + fx * (lower[c + 3] - lower[c]);
-    grey[c] = above + fy * (below - above);
+    std::array<uchar, 16> ends{};
+    std::copy_n(upper, 6, ends.begin());
+    std::copy_n(lower, 6, ends.begin() + 8);
+    return interpolate(ends.data(), ends.data() + 8, fx, fy);
   }
-  return grey;
+  return interpolate(upper, lower, fx, fy);
 }
 
-/** std::lround() of what is not negative, without a call. */
-int nearest(float value)
-{
-  const int whole = static_cast<int>(value);
-  return whole + (value - static_cast<float>(whole) >= .5F ? 1 : 0);
-}
-
-LogColor logarithm(const cv::Vec3f& grey)
+/** Of the channels' levels: std::lround() of what is not negative, and its logarithm. */
+LogColor logarithm(const cv::v_float32x4& grey)
 {
   const auto& table = logarithms();
-  LogColor color;
-  for (int c = 0; c < 3; ++c)
-  {
-    color[c] = table[nearest(grey[c] * LEVELS_PER_GREY)];
-  }
-  return color;
+  const cv::v_float32x4 levels = grey * cv::v_setall_f32(LEVELS_PER_GREY);
+  const cv::v_int32x4 whole = cv::v_trunc(levels);
+  const cv::v_float32x4 rest = levels - cv::v_cvt_f32(whole);
+  std::array<int, 4> nearest;
+  cv::v_store(nearest.data(), whole - cv::v_reinterpret_as_s32(rest >= cv::v_setall_f32(.5F)));
+  return {table[nearest[0]], table[nearest[1]], table[nearest[2]]};
 }
 
 /** The part of a ring that its edges do not blur. */
@@ -151,8 +162,11 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
         profile.inside[angle] = i;
         break;
       }
-      grey[i] = sample(bgr, places.x[i], places.y[i]);
-      color[i] = logarithm(grey[i]);
+      const cv::v_float32x4 channels = sample(bgr, places.x[i], places.y[i]);
+      std::array<float, 4> values;
+      cv::v_store(values.data(), channels);
+      grey[i] = cv::Vec3f(values.data());
+      color[i] = logarithm(channels);
     }
   }
 }
