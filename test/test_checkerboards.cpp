@@ -271,6 +271,29 @@ TEST(Checkerboards, thePlainPatternThatFillsThePictureIsNoBoard)
   }
 }
 
+TEST(Checkerboards, anUnevenTilingThatFillsThePictureIsNoBoard)
+{
+  constexpr int NODES = 14;
+  constexpr double SQUARE = 40;
+  constexpr double UNEVEN = 0.045;  // squares
+  Render render({440, 440}, cv::Scalar::all(200));
+  cv::RNG random(1);
+  std::vector<cv::Point2d> nodes;
+  for (int i = 0; i < NODES * NODES; ++i)
+  {
+    const cv::Point2d even(i % NODES - 0.6, i / NODES - 0.6);
+    nodes.push_back(SQUARE * (even + UNEVEN * cv::Point2d(random.gaussian(1), random.gaussian(1))));
+  }
+  for (int i = 0; i + NODES + 1 < NODES * NODES; ++i)
+  {
+    if ((i % NODES + i / NODES) % 2 == 0 && i % NODES + 1 < NODES)
+    {
+      render.addPolygon({nodes[i], nodes[i + 1], nodes[i + NODES + 1], nodes[i + NODES]}, cv::Scalar::all(40));
+    }
+  }
+  EXPECT_TRUE(find(render.picture()).empty());
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

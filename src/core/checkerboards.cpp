@@ -35,6 +35,10 @@ constexpr float BORDERLESS_CORRELATION = 0.98F;
 // Nor are they whole: this many corners without gaps are a board whose border the shadow of a fence hides.
 constexpr int BORDERLESS_CORNERS = 40;
 constexpr float BORDERLESS_FILL = 0.9F;
+// A tiling of round pieces (Truchet) that is cut by the picture all around has all corners, but not on even lines:
+// 0.161, where 95 % of the boards are below 0.063. Scaled and cropped photographs without a board: 1 -> 0 boards on
+// 1936. Asked of every board without a border it costs 3 of 1641 under shadows, whose ends the picture shows.
+constexpr float MAX_CUT_UNEVENNESS = 0.1F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
 constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
 constexpr int MIN_CORNERS = 6;           // within reach of one another, or it is no lattice
@@ -131,9 +135,11 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
     return side == SideEvidence::border || side == SideEvidence::doubtful_border || side == SideEvidence::bare;
   });
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
+  const bool fills_picture = std::count(sides.begin(), sides.end(), SideEvidence::cut) == 4;
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
          evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
-         (borders > 0 || isClear(lattice, evidence)) && !goes_on && height >= MIN_SQUARE &&
+         (borders > 0 || isClear(lattice, evidence)) && !goes_on &&
+         (!fills_picture || evidence.unevenness <= MAX_CUT_UNEVENNESS) && height >= MIN_SQUARE &&
          (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
 }
 
