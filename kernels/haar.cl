@@ -43,42 +43,6 @@ INLINE int total(int8 v)
   return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
 }
 
-/** Four times the mean of a cell's pixels in a channel. */
-INLINE uint cellMean(global const uint* top, global const uint* bottom, int left, int right, int shift)
-{
-  return (bottom[right] - bottom[left] - top[right] + top[left]) >> shift;
-}
-
-/**
- * The brightness of the cells of a level, one group a row of cells.
- *
- * @param integral  as integral.cl gives it, of an image of the width.
- * @param logarithm of a cell's mean.
- * @param cells     three planes of cells_down rows of cells_across: b + g + r, r - g, b - g.
- */
-kernel GROUP void haarCells(global const uint* restrict integral, int width, int level,
-                            global const short* restrict logarithm, int cells_across, int cells_down,
-                            global short* restrict cells)
-{
-  const int y = get_group_id(0);
-  const int side = 2 << level;
-  global const uint* restrict top = integral + (size_t)y * side * (3 * width + 3);
-  global const uint* restrict bottom = top + (size_t)side * (3 * width + 3);
-  global short* restrict row = cells + (size_t)y * cells_across;
-  const size_t plane = (size_t)cells_down * cells_across;
-  for (int x = get_local_id(0); x < cells_across; x += LANES)
-  {
-    const int left = 3 * side * x;
-    const int right = left + 3 * side;
-    const short blue = logarithm[cellMean(top, bottom, left, right, 2 * level)];
-    const short green = logarithm[cellMean(top, bottom, left + 1, right + 1, 2 * level)];
-    const short red = logarithm[cellMean(top, bottom, left + 2, right + 2, 2 * level)];
-    row[x] = blue + green + red;
-    row[plane + x] = red - green;
-    row[2 * plane + x] = blue - green;
-  }
-}
-
 /** Haar responses of a row of four blocks. */
 typedef struct
 {

@@ -5,17 +5,29 @@
 
 #define MAX_HIDDEN 256
 
-/** tanh(x / 2). */
-INLINE float8 activation(float8 x)
+/**
+ * tanh(x / 2) = 1 - 2 / (1 + e^x). The power is 2^n with the nearest n times a series of 2^f, right to 2e-7: a library's
+ * exp() may be a call for each lane.
+ */
+INLINE float16 activation(float16 x)
 {
-  return 1 - 2 / (1 + exp(x));
+  const float16 y = clamp(x * 1.44269504f, -60.0f, 60.0f);
+  const float16 n = rint(y);
+  const float16 f = (y - n) * 0.693147181f;
+  float16 series = mad(f, 1.0f / 720, 1.0f / 120);
+  series = mad(f, series, 1.0f / 24);
+  series = mad(f, series, 1.0f / 6);
+  series = mad(f, series, 0.5f);
+  series = mad(f, series, 1.0f);
+  series = mad(f, series, 1.0f);
+  return 1 - 2 / (1 + series * as_float16((convert_int16(n) + 127) << 23));
 }
 
-/** @param weights of each hidden unit: INPUTS, then of each output: one a hidden unit, and the bias; padded to 8. */
+/** @param weights of each hidden unit: INPUTS, then of each output: one a hidden unit, and the bias; padded to 16. */
 INLINE float2 networkScores(const float* features, global const float* weights, int hidden)
 {
-  float units[MAX_HIDDEN + 8];
-  const int padded = (hidden + 1 + 7) / 8 * 8;
+  float units[MAX_HIDDEN + 16];
+  const int padded = (hidden + 1 + 15) / 16 * 16;
   for (int unit = 0; unit < padded; ++unit)
   {
     units[unit] = 0;
@@ -31,9 +43,9 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
     const float4 half_sum = sum.lo + sum.hi;
     units[unit] = half_sum.x + half_sum.y + half_sum.z + half_sum.w;
   }
-  for (int i = 0; i < padded / 8; ++i)
+  for (int i = 0; i < padded / 16; ++i)
   {
-    vstore8(activation(vload8(i, units)), i, units);
+    vstore16(activation(vload16(i, units)), i, units);
   }
   units[hidden] = 1;
   float8 checkerboard = 0;
@@ -46,19 +58,22 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
   }
   const float4 c = checkerboard.lo + checkerboard.hi;
   const float4 t = target.lo + target.hi;
-  const float8 scores = activation((float8)(c.x + c.y + c.z + c.w, t.x + t.y + t.z + t.w, 0, 0, 0, 0, 0, 0));
-  return scores.s01;
+  float16 sums = 0;
+  sums.s0 = c.x + c.y + c.z + c.w;
+  sums.s1 = t.x + t.y + t.z + t.w;
+  return activation(sums).s01;
 }
 
 /**
  * The scores of the windows of a level, one group a row of windows: checkerboard and target, -1 to 1.
  *
+ * @param passes of each window, as gateWindows gives them.
  * @param first of the level in scores.
  */
 kernel GROUP void scoreWindows(global const short* restrict cells, int cells_across, int cells_down,
                                global const uchar* restrict tables, int crossings,
-                               global const float* restrict weights, int hidden, int windows_across, int first,
-                               global float2* restrict scores)
+                               global const float* restrict weights, int hidden, global const uchar* restrict passes,
+                               int windows_across, int first, global float2* restrict scores)
 {
   const size_t plane = (size_t)cells_down * cells_across;
   const int row = get_group_id(0);
@@ -66,8 +81,8 @@ kernel GROUP void scoreWindows(global const short* restrict cells, int cells_acr
   for (int i = get_local_id(0); i < windows_across; i += LANES)
   {
     float features[INPUTS];
-    const bool contrast =
-        haarFeatures(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, features);
+    const bool contrast = passes[row * windows_across + i] != 0 &&
+                          haarFeatures(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, features);
     scores[first + row * windows_across + i] = contrast ? networkScores(features, weights, hidden) : (float2)(-1, -1);
   }
 }

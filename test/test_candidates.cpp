@@ -71,14 +71,27 @@ TEST(Candidates, twoWindowsAloneAreClutter)
   EXPECT_TRUE(scores.candidates().empty());
 }
 
-TEST(Candidates, theBestWindowMustBeSure)
+TEST(Candidates, fewWindowsNeedABetterScore)
 {
-  Scores scores;
-  scores.show(MarkerKind::checkerboard, 0, {3, 3, 6, 6}, .85F);
-  EXPECT_TRUE(scores.candidates().empty());
-  scores.show(MarkerKind::checkerboard, 0, {5, 5, 1, 1}, .95F);
-  ASSERT_EQ(1U, scores.candidates().size());
-  EXPECT_EQ(36, scores.candidates()[0].windows);
+  Scores few;
+  few.show(MarkerKind::checkerboard, 0, {3, 3, 2, 2}, .65F);
+  EXPECT_TRUE(few.candidates().empty());
+  few.show(MarkerKind::checkerboard, 0, {3, 3, 1, 1}, .75F);
+  ASSERT_EQ(1U, few.candidates().size());
+  EXPECT_EQ(4, few.candidates()[0].windows);
+  Scores many;
+  many.show(MarkerKind::checkerboard, 0, {3, 3, 4, 4}, .55F);
+  EXPECT_EQ(1U, many.candidates().size());
+}
+
+TEST(Candidates, aTargetHasFewerWindowsThanABoard)
+{
+  for (const MarkerKind kind : {MarkerKind::checkerboard, MarkerKind::target})
+  {
+    Scores scores;
+    scores.show(kind, 0, {3, 3, 3, 1}, .7F);
+    EXPECT_EQ(kind == MarkerKind::target ? 1U : 0U, scores.candidates().size());
+  }
 }
 
 TEST(Candidates, neighbouringWindowsMakeOneBox)

@@ -30,6 +30,20 @@ omr::MarkerNetwork anyNetwork(int hidden)
   return network;
 }
 
+/** Every second row and column of an integral image. */
+cv::Mat everySecond(const cv::Mat& integral)
+{
+  cv::Mat second((integral.rows + 1) / 2, (integral.cols + 1) / 2, CV_32SC3);
+  for (int y = 0; y < second.rows; ++y)
+  {
+    for (int x = 0; x < second.cols; ++x)
+    {
+      second.at<cv::Vec3i>(y, x) = integral.at<cv::Vec3i>(2 * y, 2 * x);
+    }
+  }
+  return second;
+}
+
 /** Preliminary detection on the device against the plain one. */
 class DeviceWindowsTest : public testing::TestWithParam<Geometry>
 {
@@ -89,7 +103,7 @@ TEST_P(DeviceWindowsTest, theIntegralImageIsThatOfOpenCv)
     fill_->loadImage(image);
     fill_->readIntegral(actual);
     fill_->finish();
-    EXPECT_TRUE(omr::test::equal(expected, actual)) << size;
+    EXPECT_TRUE(omr::test::equal(everySecond(expected), actual)) << size;
   }
 }
 
@@ -102,7 +116,7 @@ TEST_P(DeviceWindowsTest, theIntegralImageWrapsAsThatOfOpenCv)
   fill_->loadImage(image);
   fill_->readIntegral(actual);
   fill_->finish();
-  EXPECT_TRUE(omr::test::equal(expected, actual));
+  EXPECT_TRUE(omr::test::equal(everySecond(expected), actual));
 }
 
 TEST_P(DeviceWindowsTest, theScoresAreThoseOfPlainCpp)

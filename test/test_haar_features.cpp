@@ -153,6 +153,53 @@ TEST(HaarFeatures, aLevelSeesWhatTheOneBelowSeesAtHalfTheSize)
   EXPECT_EQ(featuresOf(small), featuresOf(large, 2));
 }
 
+TEST(HaarGate, itsInputsAreTheBlocksRelativeToTheContrast)
+{
+  cv::Mat image = squares(4.3, 20);
+  cv::Mat integral;
+  cv::integral(image, integral, CV_32S);
+  const cv::Mat cells = omr::haarCells(integral, 0);
+  std::vector<float> inputs(omr::GATE_INPUTS);
+  ASSERT_TRUE(omr::gateInputs(cells, {0, 0}, inputs.data()));
+  const std::vector<float> features = featuresOf(image);
+  const float contrast = features[CONTRAST] * 256;
+  double ratio = 0;  // of the two measures of contrast; the same for all inputs
+  for (int block = 0; block < omr::HAAR_BLOCKS; ++block)
+  {
+    const float* feature = features.data() + omr::HAAR_FEATURES - 6 * (omr::HAAR_BLOCKS - block);
+    const double across = (feature[3] + 1) * 2 * contrast;
+    if (across > 100)
+    {
+      ratio = ratio == 0 ? inputs[6 * block + 3] / across : ratio;
+      EXPECT_NEAR(ratio, inputs[6 * block + 3] / across, 1e-3 * ratio);
+      EXPECT_NEAR(feature[0] * 4 * contrast * ratio, inputs[6 * block], .03);
+    }
+  }
+  EXPECT_GT(ratio, 0);
+}
+
+TEST(HaarGate, whatHasFeaturesHasInputs)
+{
+  std::vector<float> features(HAAR_FEATURES);
+  std::vector<float> inputs(omr::GATE_INPUTS);
+  int with_features = 0;
+  for (int seed = 1; seed <= 500; ++seed)
+  {
+    cv::Mat image = clutter(seed);
+    image.convertTo(image, -1, .1 + .0016 * seed, 40);  // about the least contrast
+    cv::Mat integral;
+    cv::integral(image, integral, CV_32S);
+    const cv::Mat cells = omr::haarCells(integral, 0);
+    if (omr::haarFeatures(cells, {0, 0}, features.data()))
+    {
+      with_features += 1;
+      EXPECT_TRUE(omr::gateInputs(cells, {0, 0}, inputs.data())) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(with_features, 50);
+  EXPECT_LT(with_features, 450);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -7,6 +7,7 @@
 
 #include "network_training.h"
 
+using omr::FeedForward;
 using omr::HAAR_FEATURES;
 using omr::MarkerKind;
 using omr::MarkerNetwork;
@@ -21,7 +22,7 @@ omr::WindowSet windowsToLearn()
   cv::RNG random(5);
   for (int i = 0; i < 3000; ++i)
   {
-    std::vector<float> features(HAAR_FEATURES);
+    std::vector<float> features(HAAR_FEATURES);  // those of the gate are the first of them
     for (float& feature : features)
     {
       feature = static_cast<float>(random.gaussian(1) + .5);
@@ -29,7 +30,7 @@ omr::WindowSet windowsToLearn()
     const WindowLabel label = static_cast<WindowLabel>(i % 3);
     features[7] += label == WindowLabel::checkerboard ? 8.F : 0.F;
     features[90] -= label == WindowLabel::target ? 8.F : 0.F;
-    windows.append(features.data(), label);
+    windows.append(features.data(), features.data(), label);
   }
   return windows;
 }
@@ -63,6 +64,17 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
+void expectAlike(const FeedForward& expected, const FeedForward& actual)
+{
+  EXPECT_EQ(expected.hidden, actual.hidden);
+  EXPECT_EQ(expected.thresholds, actual.thresholds);
+  ASSERT_EQ(expected.weights.size(), actual.weights.size());
+  for (std::size_t i = 0; i < expected.weights.size(); ++i)
+  {
+    EXPECT_NEAR(expected.weights[i], actual.weights[i], 1e-4 * std::abs(expected.weights[i]));
+  }
+}
+
 void expectRefused(const std::string& text, const std::string& words)
 {
   try
@@ -81,14 +93,14 @@ void expectRefused(const std::string& text, const std::string& words)
 TEST(MarkerNetwork, givesWhatTheNetworkOfOpenCvGives)
 {
   const omr::WindowSet windows = windowsToLearn();
-  const cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows, 9, 3);
-  const MarkerNetwork network = omr::toMarkerNetwork(*trained, {});
+  const cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows.features, windows.labels, 9, 3);
+  const omr::FeedForward network = omr::toFeedForward(*trained, {});
   cv::Mat expected;
   trained->predict(windows.features, expected);
   int right = 0;
   for (int i = 0; i < windows.features.rows; ++i)
   {
-    const omr::MarkerScores scores = omr::markerScores(network, windows.features.ptr<float>(i));
+    const omr::MarkerScores scores = omr::markerScores(network, HAAR_FEATURES, windows.features.ptr<float>(i));
     ASSERT_NEAR(expected.at<float>(i, 0), scores[0], 1e-5);
     ASSERT_NEAR(expected.at<float>(i, 1), scores[1], 1e-5);
     right += static_cast<int>((scores[0] > 0) == (windows.labels[i] == WindowLabel::checkerboard) &&
@@ -100,21 +112,27 @@ TEST(MarkerNetwork, givesWhatTheNetworkOfOpenCvGives)
 TEST(MarkerNetwork, equalWindowsGiveEqualNetworks)
 {
   const omr::WindowSet windows = windowsToLearn();
-  const auto trained = [&] { return omr::toMarkerNetwork(*omr::trainNetwork(windows, 4, 1), {}).weights; };
+  const auto trained = [&] {
+    return omr::toFeedForward(*omr::trainNetwork(windows.features, windows.labels, 4, 1), {}).weights;
+  };
   EXPECT_EQ(trained(), trained());
 }
 
 TEST(MarkerNetwork, readsWhatIsWritten)
 {
-  const MarkerNetwork network = omr::toMarkerNetwork(*omr::trainNetwork(windowsToLearn(), 5, 1), {.75F, .125F});
+  const omr::WindowSet windows = windowsToLearn();
+  MarkerNetwork network;
+  static_cast<FeedForward&>(network) =
+      omr::toFeedForward(*omr::trainNetwork(windows.features, windows.labels, 5, 1), {.75F, .125F});
+  network.gate = omr::toFeedForward(*omr::trainNetwork(windows.gate, windows.labels, 3, 1), {-.5F, -.25F});
   const MarkerNetwork read = omr::loadMarkerNetwork(temporaryFile("# a comment\n" + textOf(network)));
-  EXPECT_EQ(network.hidden, read.hidden);
-  EXPECT_EQ(network.thresholds, read.thresholds);
-  ASSERT_EQ(network.weights.size(), read.weights.size());
-  for (std::size_t i = 0; i < network.weights.size(); ++i)
-  {
-    EXPECT_NEAR(network.weights[i], read.weights[i], 1e-4 * std::abs(network.weights[i]));
-  }
+  expectAlike(network, read);
+  expectAlike(network.gate, read.gate);
+}
+
+TEST(MarkerNetwork, aFileWithoutAGateLetsAllWindowsPass)
+{
+  EXPECT_EQ(0, omr::loadMarkerNetwork(temporaryFile(smallNetwork())).gate.hidden);
 }
 
 TEST(MarkerNetwork, refusesWhatIsNone)
@@ -128,6 +146,8 @@ TEST(MarkerNetwork, refusesWhatIsNone)
   expectRefused(replaced(smallNetwork(), "hidden_units", "hidden"), "there is no key 'hidden'");
   expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5"), "hidden_units[0]");
   expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5, .nan"), "hidden_units[0]");
+  expectRefused(smallNetwork() + "gate: {thresholds: {checkerboard: 0, target: 0}, hidden_units: [[1]]}\n",
+                "gate.hidden_units[0]");
   expectRefused("thresholds: {checkerboard: 0, target: 0}\nhidden_units: []\noutput_units: []\n", "hidden_units");
 }
 
@@ -136,6 +156,8 @@ TEST(MarkerNetwork, theDefaultOneFits)
   const MarkerNetwork& network = omr::defaultMarkerNetwork();
   EXPECT_EQ(static_cast<std::size_t>(network.hidden * (HAAR_FEATURES + 1) + 2 * (network.hidden + 1)),
             network.weights.size());
+  EXPECT_EQ(static_cast<std::size_t>(network.gate.hidden * (omr::GATE_INPUTS + 1) + 2 * (network.gate.hidden + 1)),
+            network.gate.weights.size());
 }
 
 int main(int argc, char** argv)

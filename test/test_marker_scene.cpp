@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "classification.h"
+#include "clutter_scene.h"
 #include "compare.h"
 #include "training_windows.h"
 
@@ -51,6 +52,40 @@ TEST(MarkerScene, equalSeedsGiveEqualScenesWithMarkersInside)
       EXPECT_TRUE(cv::Rect2d({}, scene.image.size()).contains(center)) << "seed " << seed;
     }
   }
+}
+
+TEST(ClutterScene, equalSeedsGiveEqualScenesAndOthersDiffer)
+{
+  const cv::Mat background = omr::test::noiseImage({200, 150});
+  cv::Mat before;
+  for (int seed = 1; seed <= 30; ++seed)  // more than there are patterns
+  {
+    cv::RNG random(seed);
+    cv::RNG again(seed);
+    const cv::Mat scene = omr::renderClutterScene(background, random);
+    EXPECT_TRUE(omr::test::equal(scene, omr::renderClutterScene(background, again)));
+    EXPECT_EQ(CV_8UC3, scene.type());
+    EXPECT_FALSE(seed > 1 && omr::test::equal(scene, before));
+    before = scene;
+  }
+}
+
+TEST(TrainingWindows, whatTheGateRejectsHasNoFeatures)
+{
+  const cv::Mat image = omr::test::noiseImage({64, 64});
+  omr::FeedForward gate;
+  gate.hidden = 1;
+  gate.weights.assign(omr::GATE_INPUTS + 1 + 2 * 2, 0);  // scores of 0
+  const auto any = [](const float* /*features*/, WindowLabel /*label*/) { return true; };
+  omr::WindowSet all;
+  omr::addWindows(image, {}, gate, any, all);
+  EXPECT_EQ(0U, all.labels.size()) << "thresholds of 1";
+  EXPECT_GT(all.plain_clutter, 0);
+  gate.thresholds = {1, -.5F};
+  omr::addWindows(image, {}, gate, any, all);
+  EXPECT_GT(all.labels.size(), 0U);
+  EXPECT_EQ(static_cast<int>(all.labels.size()), all.features.rows);
+  EXPECT_EQ(static_cast<int>(all.labels.size()), all.gate.rows);
 }
 
 TEST(TrainingWindows, aWindowOnABoardShowsItWhereTheSquaresSuitTheLevel)

@@ -86,6 +86,19 @@ cv::Mat haarCells(const cv::Mat& integral, int level);
  */
 bool haarFeatures(const cv::Mat& cells, const cv::Point& first, float* features);
 
+/** Inputs of the first look: of each block, the six block features above without what is costly. */
+constexpr int GATE_INPUTS = HAAR_BLOCKS * BLOCK_FEATURES;
+
+/**
+ * What decides at a first look whether a window is worth its features: of each block its mean brightness, the two
+ * colour differences, and the Haar responses across, down, and in colour; all relative to the contrast within and
+ * between the blocks. Neighbouring windows share blocks, so kernels compute them once.
+ *
+ * @param inputs receives GATE_INPUTS values of the order of 1.
+ * @return       false where there is so little contrast that haarFeatures() gives none; inputs is not written then.
+ */
+bool gateInputs(const cv::Mat& cells, const cv::Point& first, float* inputs);
+
 }  // namespace omr
 
 #endif

@@ -19,17 +19,33 @@ constexpr int MARKER_KINDS = 2;
 using MarkerScores = std::array<float, MARKER_KINDS>;
 
 /**
- * The feed-forward neural network with a single hidden layer that tells windows with markers from others (paper,
- * section 4.5). Inputs are the features of haar_features.h; a unit gives tanh(x / 2) of its weighted sum, which is
- * cv::ml::ANN_MLP::SIGMOID_SYM with both parameters 1.
+ * A feed-forward neural network with a single hidden layer and one output a kind. A unit gives tanh(x / 2) of its
+ * weighted sum, which is cv::ml::ANN_MLP::SIGMOID_SYM with both parameters 1.
  */
-struct MarkerNetwork
+struct FeedForward
 {
   int hidden = 0;              ///< units of the hidden layer
-  std::vector<float> weights;  ///< of each hidden unit: bias and HAAR_FEATURES weights; then of each output: bias and
+  std::vector<float> weights;  ///< of each hidden unit: bias and a weight for each input; then of each output: bias and
                                ///< one weight a hidden unit
-  MarkerScores thresholds = {1, 1};  ///< a window with a larger score may show a marker of the kind
+  MarkerScores thresholds = {1, 1};  ///< a larger score stands for a marker of the kind
+
+  bool passes(const MarkerScores& scores) const
+  {
+    return scores[0] > thresholds[0] || scores[1] > thresholds[1];
+  }
 };
+
+/**
+ * The network that tells windows with markers from others (paper, section 4.5), by the features of haar_features.h.
+ * Windows that the gate, a smaller network on gateInputs(), finds no marker in are not looked at any further.
+ */
+struct MarkerNetwork : FeedForward
+{
+  FeedForward gate;  ///< of no hidden units: every window passes
+};
+
+/** @param inputs of the network: HAAR_FEATURES values for a MarkerNetwork, GATE_INPUTS for its gate. */
+MarkerScores markerScores(const FeedForward& network, int inputs, const float* values);
 
 /** @param features HAAR_FEATURES values. */
 MarkerScores markerScores(const MarkerNetwork& network, const float* features);

@@ -13,12 +13,15 @@ namespace omr
 int windowCount(const cv::Size& size);
 
 /**
- * The network's scores of all windows, level by level, row by row; -1 where a window has too little contrast. Plain
- * C++: the oracle of kernels/network.cl, and its place where no OpenCL device is.
+ * The network's scores of all windows, level by level, row by row; -1 where a window has too little contrast or the
+ * gate finds nothing. Plain C++: the oracle of gate.cl and network.cl, and their place where no OpenCL device is.
  *
  * @param bgr H x W, CV_8UC3.
  */
 std::vector<MarkerScores> windowScores(const cv::Mat& bgr, const MarkerNetwork& network);
+
+/** Whether a window may show a marker at the first look. @param cells, first as in haarFeatures(). */
+bool passesGate(const cv::Mat& cells, const cv::Point& first, const FeedForward& gate);
 
 }  // namespace omr
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "haar_blocks.h"
 #include "haar_shifts.h"
 
 namespace omr
@@ -45,19 +46,10 @@ Window readWindow(const cv::Mat& cells, const cv::Point& first)
   return window;
 }
 
-/** Of a block of 2 x 2 cells: the sum, and the Haar responses across and down. */
-struct Block
+HaarBlock blockOf(const Plane& plane, int row, int col)
 {
-  int sum, across, down;
-};
-
-Block blockOf(const Plane& plane, int row, int col)
-{
-  const int a = plane[2 * row][2 * col];
-  const int b = plane[2 * row][2 * col + 1];
-  const int c = plane[2 * row + 1][2 * col];
-  const int d = plane[2 * row + 1][2 * col + 1];
-  return {a + b + c + d, std::abs(a - b) + std::abs(c - d), std::abs(a - c) + std::abs(b - d)};
+  return haarBlock(plane[2 * row][2 * col], plane[2 * row][2 * col + 1], plane[2 * row + 1][2 * col],
+                   plane[2 * row + 1][2 * col + 1]);
 }
 
 /** Whether each quarter of the window has contrast. All its neighbours count: squares may coincide with the blocks. */
@@ -246,9 +238,9 @@ bool haarFeatures(const cv::Mat& cells, const cv::Point& first, float* features)
 
   for (int i = 0; i < HAAR_BLOCKS; ++i)
   {
-    const Block light = blockOf(window.light, i / 4, i % 4);
-    const Block red = blockOf(window.red, i / 4, i % 4);
-    const Block blue = blockOf(window.blue, i / 4, i % 4);
+    const HaarBlock light = blockOf(window.light, i / 4, i % 4);
+    const HaarBlock red = blockOf(window.red, i / 4, i % 4);
+    const HaarBlock blue = blockOf(window.blue, i / 4, i % 4);
     const int color = red.across + red.down + blue.across + blue.down;
     *next++ = static_cast<float>(light.sum - 4 * mean) / (4 * contrast);
     *next++ = static_cast<float>(red.sum) / (4 * OCTAVE);

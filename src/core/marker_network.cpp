@@ -1,5 +1,6 @@
 #include "outdoor_omr/marker_network.h"
 
+#include <array>
 #include <cmath>
 
 #include "default_marker_network.h"
@@ -35,10 +36,9 @@ void appendUnits(const YamlFile& layer, const std::string& expected, std::size_t
   }
 }
 
-MarkerNetwork readMarkerNetwork(const YamlFile& file)
+/** The keys of a network, which others may stand beside. */
+void readUnits(const YamlFile& file, std::size_t inputs, FeedForward& network)
 {
-  file.allowOnly({"thresholds", "hidden_units", "output_units"}, "a map of thresholds, hidden_units and output_units");
-  MarkerNetwork network;
   const YamlFile thresholds = file.get("thresholds", "the thresholds of the scores");
   thresholds.allowOnly({"checkerboard", "target"}, "a map of checkerboard and target");
   network.thresholds[0] = static_cast<float>(thresholds.get("checkerboard", "a score").number("a score", -1, 1));
@@ -49,20 +49,35 @@ MarkerNetwork readMarkerNetwork(const YamlFile& file)
   {
     hidden.fail("there are " + std::to_string(network.hidden) + " units, expected 1 to " + std::to_string(MAX_HIDDEN));
   }
-  appendUnits(hidden, "a list of units", network.hidden, HAAR_FEATURES, network.weights);
+  appendUnits(hidden, "a list of units", network.hidden, inputs, network.weights);
   appendUnits(file.get("output_units", "two units"), "two units", MARKER_KINDS, network.hidden, network.weights);
+}
+
+MarkerNetwork readMarkerNetwork(const YamlFile& file)
+{
+  file.allowOnly({"thresholds", "hidden_units", "output_units", "gate"},
+                 "a map of thresholds, hidden_units, output_units and gate");
+  MarkerNetwork network;
+  readUnits(file, HAAR_FEATURES, network);
+  if (file.has("gate"))
+  {
+    const YamlFile gate = file.get("gate", "a network");
+    gate.allowOnly({"thresholds", "hidden_units", "output_units"},
+                   "a map of thresholds, hidden_units and output_units");
+    readUnits(gate, GATE_INPUTS, network.gate);
+  }
   return network;
 }
 }  // namespace
 
-MarkerScores markerScores(const MarkerNetwork& network, const float* features)
+MarkerScores markerScores(const FeedForward& network, int inputs, const float* values)
 {
-  std::vector<float> hidden(network.hidden);
+  std::array<float, MAX_HIDDEN> hidden;
   const float* weights = network.weights.data();
-  for (float& unit : hidden)
+  for (int unit = 0; unit < network.hidden; ++unit)
   {
-    unit = std::tanh(.5F * weightedSum(weights, features, HAAR_FEATURES));
-    weights += HAAR_FEATURES + 1;
+    hidden[unit] = std::tanh(.5F * weightedSum(weights, values, inputs));
+    weights += inputs + 1;
   }
   MarkerScores scores = {};
   for (float& score : scores)
@@ -71,6 +86,11 @@ MarkerScores markerScores(const MarkerNetwork& network, const float* features)
     weights += network.hidden + 1;
   }
   return scores;
+}
+
+MarkerScores markerScores(const MarkerNetwork& network, const float* features)
+{
+  return markerScores(network, HAAR_FEATURES, features);
 }
 
 MarkerNetwork loadMarkerNetwork(const std::string& file)

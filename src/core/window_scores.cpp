@@ -1,7 +1,8 @@
 #include "outdoor_omr/window_scores.h"
 
 #include <array>
-#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/each_window.h"
 
 namespace omr
 {
@@ -19,21 +20,22 @@ std::vector<MarkerScores> windowScores(const cv::Mat& bgr, const MarkerNetwork& 
 {
   std::vector<MarkerScores> scores;
   scores.reserve(windowCount(bgr.size()));
-  cv::Mat integral;
-  cv::integral(bgr, integral, CV_32S);
   std::array<float, HAAR_FEATURES> features = {};
-  for (int level = 0; level < HAAR_LEVELS; ++level)
-  {
-    const cv::Mat cells = haarCells(integral, level);
-    const cv::Size grid = windowGrid(bgr.size(), level);
-    for (int i = 0; i < grid.area(); ++i)
-    {
-      const cv::Point first = WINDOW_STRIDE * cv::Point(i % grid.width, i / grid.width);
-      const bool contrast = haarFeatures(cells, first, features.data());
-      scores.push_back(contrast ? markerScores(network, features.data()) : MarkerScores{-1, -1});
-    }
-  }
+  forEachWindow(bgr, [&](const cv::Mat& cells, const cv::Point& first, const cv::Point& /*index*/, int /*level*/) {
+    const bool looked = passesGate(cells, first, network.gate) && haarFeatures(cells, first, features.data());
+    scores.push_back(looked ? markerScores(network, features.data()) : MarkerScores{-1, -1});
+  });
   return scores;
+}
+
+bool passesGate(const cv::Mat& cells, const cv::Point& first, const FeedForward& gate)
+{
+  if (gate.hidden == 0)
+  {
+    return true;
+  }
+  std::array<float, GATE_INPUTS> inputs;
+  return gateInputs(cells, first, inputs.data()) && gate.passes(markerScores(gate, GATE_INPUTS, inputs.data()));
 }
 
 }  // namespace omr

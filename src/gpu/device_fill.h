@@ -54,7 +54,7 @@ class DeviceFill
    */
   void scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores);
 
-  /** The integral image of the loaded image, as cv::integral() gives it; waits. */
+  /** Every second row and column of the loaded image's integral image, as cv::integral() gives it; waits. */
   void readIntegral(cv::Mat& integral);
 
   /** In the place of scoreWindows(): frees what it needs after many images without. */

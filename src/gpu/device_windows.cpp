@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "device_fill.h"
 #include "outdoor_omr/haar_features.h"
@@ -8,11 +9,17 @@ namespace omr
 {
 namespace
 {
-/** Rows of a strip of the integral image: a group starts with the sums of all strips above, so few strips are better;
- * 16 a core divide the load. */
+/** Rows of a strip of the integral image, an even number: a group starts with the sums of all strips above, so few
+ * strips are better; 16 a core divide the load. */
 int integralRows(int height, int compute_units)
 {
-  return std::max(16, divideUp(height, 16 * compute_units));
+  return std::max(16, 2 * divideUp(height, 32 * compute_units));
+}
+
+/** What a unit's weighted sum is where it gives a score. */
+float beforeActivation(float score)
+{
+  return 2 * std::atanh(std::clamp(score, -.999999F, .999999F));
 }
 
 /** Writes what does not change while the queue reads it. */
@@ -38,8 +45,12 @@ void DeviceFill::findIntegral()
 {
   if (geometry_ == Geometry::words)
   {
-    launch("integralRows", rows(), image_, step_, size_.width, *windows_->integral);
-    launch("integralColumns", program_.groupsOf(3 * (static_cast<std::size_t>(size_.width) + 1)), size_.width,
+    if (size_.height > 1)
+    {
+      launch("integralRows", {static_cast<std::size_t>(size_.height / 2), 1}, image_, step_, size_.width,
+             *windows_->integral);
+    }
+    launch("integralColumns", program_.groupsOf(3 * (static_cast<std::size_t>(size_.width / 2) + 1)), size_.width,
            size_.height, *windows_->integral);
     return;
   }
@@ -60,7 +71,13 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     upload(context_, queue_, std::vector<cl_short>(logarithm.begin(), logarithm.end()), windows_->logarithm);
     upload(context_, queue_, packTables(), windows_->tables);
   }
-  upload(context_, queue_, packWeights(network), windows_->weights);
+  const FeedForward& gate = network.gate;
+  if (windows_->network.weights != network.weights || windows_->network.gate.weights != gate.weights)
+  {
+    upload(context_, queue_, packWeights(network), windows_->weights);
+    upload(context_, queue_, gate.hidden > 0 ? packGate(gate) : std::vector<cl_float>(1), windows_->gate_weights);
+    windows_->network = network;
+  }
   const auto crossings = static_cast<cl_int>(haarTables().crossings.size());
   findIntegral();
   int first = 0;
@@ -72,10 +89,14 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
       break;
     }
     const cv::Size cells = size_ / cellSize(level);
-    launch("haarCells", {static_cast<std::size_t>(cells.height), 1}, *windows_->integral, size_.width, level,
-           *windows_->logarithm, cells.width, cells.height, *windows_->cells);
-    launch("scoreWindows", {static_cast<std::size_t>(grid.height), 1}, *windows_->cells, cells.width, cells.height,
-           *windows_->tables, crossings, *windows_->weights, network.hidden, grid.width, first, *windows_->scores);
+    const Groups window_rows = {static_cast<std::size_t>(grid.height), 1};
+    launch("haarCells", {static_cast<std::size_t>(divideUp(cells.height, 2)), 1}, *windows_->integral, size_.width,
+           level, *windows_->logarithm, cells.width, cells.height, *windows_->cells, *windows_->blocks);
+    launch("gateWindows", window_rows, *windows_->blocks, cells.width / 2, cells.height / 2, *windows_->gate_weights,
+           gate.hidden, beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]), grid.width,
+           *windows_->passes);
+    launch("scoreWindows", window_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
+           *windows_->weights, network.hidden, *windows_->passes, grid.width, first, *windows_->scores);
     first += grid.area();
   }
   scores.resize(first);
@@ -90,7 +111,7 @@ void DeviceFill::readIntegral(cv::Mat& integral)
 {
   reserveWindows();
   findIntegral();
-  integral.create(size_.height + 1, size_.width + 1, CV_32SC3);
+  integral.create(size_.height / 2 + 1, size_.width / 2 + 1, CV_32SC3);
   queue_.enqueueReadBuffer(*windows_->integral, CL_TRUE, 0, integral.total() * integral.elemSize(), integral.data);
 }
 

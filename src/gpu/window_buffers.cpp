@@ -11,6 +11,10 @@ namespace
 {
 constexpr std::size_t INPUTS = 152;  // HAAR_FEATURES, the bias, and zeros up to a multiple of 8
 constexpr std::size_t FIRST_CROSSING = 48;
+constexpr std::size_t GATE_UNITS = 16;
+constexpr std::size_t BLOCK_PLANES = 6;
+constexpr std::size_t READ_BEYOND = 16;  // blocks
+static_assert(GATE_INPUTS == 96, "kernels/gate.cl has as many");
 static_assert(HAAR_FEATURES == 148, "kernels/haar.cl has the same number");
 static_assert(HAAR_SHIFTS == 40, "kernels/haar.cl has the same number");
 }  // namespace
@@ -20,15 +24,17 @@ void WindowBuffers::reserve(const cl::Context& context, const cv::Size& size, in
   const std::size_t width = size.width;
   const std::size_t height = size.height;
   column_sums.reserve(context, strips * width * 3, sizeof(cl_uint));
-  integral.reserve(context, (height + 1) * (width + 1) * 3, sizeof(cl_uint));
+  integral.reserve(context, (height / 2 + 1) * (width / 2 + 1) * 3, sizeof(cl_uint));
   cells.reserve(context, height / 2 * (width / 2) * 3, sizeof(cl_short));
+  blocks.reserve(context, height / 4 * (width / 4) * BLOCK_PLANES + READ_BEYOND, sizeof(cl_short));
+  passes.reserve(context, windowGrid(size, 0).area() + 1, 1);
   scores.reserve(context, windowCount(size), sizeof(MarkerScores));
 }
 
 std::size_t WindowBuffers::bytes() const
 {
   return column_sums.bytes() + integral.bytes() + cells.bytes() + logarithm.bytes() + tables.bytes() + weights.bytes() +
-         scores.bytes();
+         gate_weights.bytes() + blocks.bytes() + passes.bytes() + scores.bytes();
 }
 
 std::vector<cl_uchar> packTables()
@@ -46,7 +52,7 @@ std::vector<cl_uchar> packTables()
 
 std::vector<cl_float> packWeights(const MarkerNetwork& network)
 {
-  const std::size_t padded = (network.hidden + 8) / 8 * 8;  // the hidden units and the bias
+  const std::size_t padded = (network.hidden + 16) / 16 * 16;  // the hidden units and the bias
   std::vector<cl_float> packed(network.hidden * INPUTS + MARKER_KINDS * padded, 0);
   const float* weights = network.weights.data();
   const auto pack = [&weights](cl_float* to, std::size_t inputs) {
@@ -61,6 +67,26 @@ std::vector<cl_float> packWeights(const MarkerNetwork& network)
   for (int kind = 0; kind < MARKER_KINDS; ++kind)
   {
     pack(packed.data() + network.hidden * INPUTS + kind * padded, network.hidden);
+  }
+  return packed;
+}
+
+std::vector<cl_float> packGate(const FeedForward& gate)
+{
+  constexpr std::size_t OUTPUTS = (GATE_INPUTS + 1) * GATE_UNITS;
+  std::vector<cl_float> packed(OUTPUTS + MARKER_KINDS * (GATE_UNITS + 1), 0);
+  const float* weights = gate.weights.data();
+  for (int unit = 0; unit < gate.hidden; ++unit)
+  {
+    for (int i = 0; i <= GATE_INPUTS; ++i)
+    {
+      packed[i * GATE_UNITS + unit] = *weights++;
+    }
+  }
+  for (int kind = 0; kind < MARKER_KINDS; ++kind)
+  {
+    std::copy(weights, weights + gate.hidden + 1, packed.begin() + OUTPUTS + kind * (GATE_UNITS + 1));
+    weights += gate.hidden + 1;
   }
   return packed;
 }

@@ -14,12 +14,17 @@ namespace omr
 struct WindowBuffers
 {
   GrowingBuffer column_sums;  ///< of each strip of rows
-  GrowingBuffer integral;     ///< (H + 1) x (W + 1) x 3
+  GrowingBuffer integral;     ///< (H / 2 + 1) x (W / 2 + 1) x 3
   GrowingBuffer cells;        ///< three planes of the cells of a level
   GrowingBuffer logarithm;
   GrowingBuffer tables;
   GrowingBuffer weights;
+  GrowingBuffer gate_weights;
+  GrowingBuffer blocks;  ///< planes of the blocks of a level
+  GrowingBuffer passes;  ///< of the windows of a level
   GrowingBuffer scores;
+
+  MarkerNetwork network;  ///< whose weights the buffers hold
 
   /** Makes room for an image of at least one pixel. @throws cl::Error if there is none. */
   void reserve(const cl::Context& context, const cv::Size& size, int strips);
@@ -32,6 +37,7 @@ std::vector<cl_uchar> packTables();
 
 /** A network's weights in the order of network.cl. */
 std::vector<cl_float> packWeights(const MarkerNetwork& network);
+std::vector<cl_float> packGate(const FeedForward& gate);
 
 }  // namespace omr
 

@@ -27,7 +27,7 @@ struct MarkerScene
 };
 
 /**
- * Renders a picture with one or two markers as an outdoor camera may see them: boards of 5x7 to 21x21 squares and
+ * Renders a picture with one to nine markers as an outdoor camera may see them: boards of 5x7 to 21x21 squares and
  * targets of any ring colours, squares and rings of 2.5 to 24 px, under perspective, uneven light and shadows, blurred,
  * noisy and coded as JPEG.
  *

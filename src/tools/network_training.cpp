@@ -13,11 +13,11 @@ constexpr double FIRST_STEP = .01;
 constexpr double MOMENTUM = .5;
 constexpr double SHRINKING = .75;
 
-void writeUnits(std::ostream& stream, const float*& weights, int units, int inputs)
+void writeUnits(std::ostream& stream, const float*& weights, int units, int inputs, const std::string& indent)
 {
   for (int unit = 0; unit < units; ++unit)
   {
-    stream << "  - [";
+    stream << indent << "  - [";
     for (int i = 0; i <= inputs; ++i)
     {
       stream << (i == 0 ? "" : ", ") << *weights++;
@@ -25,21 +25,33 @@ void writeUnits(std::ostream& stream, const float*& weights, int units, int inpu
     stream << "]\n";
   }
 }
+
+void writeLayers(std::ostream& stream, const FeedForward& network, int inputs, const std::string& indent)
+{
+  stream << indent << "thresholds: {checkerboard: " << network.thresholds[0] << ", target: " << network.thresholds[1]
+         << "}\n";
+  const float* weights = network.weights.data();
+  stream << indent << "hidden_units:  # bias, then a weight for each of the " << inputs << " inputs\n";
+  writeUnits(stream, weights, network.hidden, inputs, indent);
+  stream << indent << "output_units:  # checkerboard, target: bias, then a weight for each hidden unit\n";
+  writeUnits(stream, weights, MARKER_KINDS, network.hidden, indent);
+}
 }  // namespace
 
-cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int epochs)
+cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const cv::Mat& inputs, const std::vector<WindowLabel>& labels, int hidden,
+                                      int epochs)
 {
-  cv::Mat answers(windows.features.rows, MARKER_KINDS, CV_32FC1, cv::Scalar(-1));
+  cv::Mat answers(inputs.rows, MARKER_KINDS, CV_32FC1, cv::Scalar(-1));
   for (int i = 0; i < answers.rows; ++i)
   {
-    if (windows.labels[i] == WindowLabel::checkerboard || windows.labels[i] == WindowLabel::target)
+    if (labels[i] == WindowLabel::checkerboard || labels[i] == WindowLabel::target)
     {
-      answers.at<float>(i, static_cast<int>(windows.labels[i])) = 1;
+      answers.at<float>(i, static_cast<int>(labels[i])) = 1;
     }
   }
-  const auto data = cv::ml::TrainData::create(windows.features, cv::ml::ROW_SAMPLE, answers);
+  const auto data = cv::ml::TrainData::create(inputs, cv::ml::ROW_SAMPLE, answers);
   const cv::Ptr<cv::ml::ANN_MLP> network = cv::ml::ANN_MLP::create();
-  network->setLayerSizes(cv::Mat(cv::Vec3i(HAAR_FEATURES, hidden, MARKER_KINDS)));
+  network->setLayerSizes(cv::Mat(cv::Vec3i(inputs.cols, hidden, MARKER_KINDS)));
   network->setActivationFunction(cv::ml::ANN_MLP::SIGMOID_SYM, 1, 1);
   network->setTermCriteria({cv::TermCriteria::COUNT, 1, 0});
   int flags = cv::ml::ANN_MLP::NO_OUTPUT_SCALE;
@@ -54,20 +66,21 @@ cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const WindowSet& windows, int hidden, int 
   return network;
 }
 
-MarkerNetwork toMarkerNetwork(const cv::ml::ANN_MLP& trained, const MarkerScores& thresholds)
+FeedForward toFeedForward(const cv::ml::ANN_MLP& trained, const MarkerScores& thresholds)
 {
   // OpenCV: layer 0 holds scale and offset of each input, 1 and 2 the weights with the bias in the last row.
   const cv::Mat scale = trained.getWeights(0);
   const cv::Mat first = trained.getWeights(1);
   const cv::Mat second = trained.getWeights(2);
-  MarkerNetwork network;
+  const int inputs = first.rows - 1;
+  FeedForward network;
   network.hidden = first.cols;
   network.thresholds = thresholds;
   for (int unit = 0; unit < first.cols; ++unit)
   {
-    double bias = first.at<double>(HAAR_FEATURES, unit);
+    double bias = first.at<double>(inputs, unit);
     std::vector<float> weights;
-    for (int i = 0; i < HAAR_FEATURES; ++i)
+    for (int i = 0; i < inputs; ++i)
     {
       bias += first.at<double>(i, unit) * scale.at<double>(0, 2 * i + 1);
       weights.push_back(static_cast<float>(first.at<double>(i, unit) * scale.at<double>(0, 2 * i)));
@@ -88,13 +101,13 @@ MarkerNetwork toMarkerNetwork(const cv::ml::ANN_MLP& trained, const MarkerScores
 
 void writeMarkerNetwork(std::ostream& stream, const MarkerNetwork& network)
 {
-  stream << std::setprecision(5) << "thresholds: {checkerboard: " << network.thresholds[0]
-         << ", target: " << network.thresholds[1] << "}\n";
-  const float* weights = network.weights.data();
-  stream << "hidden_units:  # bias, then a weight for each of the " << HAAR_FEATURES << " features\n";
-  writeUnits(stream, weights, network.hidden, HAAR_FEATURES);
-  stream << "output_units:  # checkerboard, target: bias, then a weight for each hidden unit\n";
-  writeUnits(stream, weights, MARKER_KINDS, network.hidden);
+  stream << std::setprecision(5);
+  writeLayers(stream, network, HAAR_FEATURES, "");
+  if (network.gate.hidden > 0)
+  {
+    stream << "gate:  # what windows must pass at a first look\n";
+    writeLayers(stream, network.gate, GATE_INPUTS, "  ");
+  }
 }
 
 }  // namespace omr

@@ -1,18 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <mutex>
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "classification.h"
+#include "clutter_scene.h"
 #include "image_files.h"
 #include "marker_scene.h"
 #include "network_training.h"
+#include "photographs.h"
 
 namespace
 {
@@ -21,7 +21,9 @@ struct Options
   std::vector<std::string> photographs;
   std::string output;
   int scenes = 3000;
-  int hidden = 40;
+  int hidden = 48;
+  int gate = 16;
+  double lost = .05;
   int epochs = 12;
   int rounds = 3;
   int held_out = 4;
@@ -29,75 +31,14 @@ struct Options
   double precision = .9995;
 };
 
-/** Larger photographs are shrunk to this: their finest detail is blur. */
-constexpr double MAX_SIDE = 1200;
-constexpr int MIN_SIDE = 100;
-
 /** Shares of the windows that are learned from; the clutter of a photograph is drawn again in each round, and then only
  * what the network of the round before takes for a marker. */
-constexpr double CHECKERBOARD_SHARE = .2;
+constexpr double CHECKERBOARD_SHARE = .3;
 constexpr double CLUTTER_SHARE = .006;
-constexpr double HARD_SHARE = 1;
 constexpr float HARD_SCORE = -.7F;
 
-/** The photographs of all folders and their subfolders, in the order of their names; those that cannot be used are
- * told. */
-std::vector<cv::Mat> readPhotographs(const std::vector<std::string>& folders)
-{
-  std::vector<std::string> names;
-  for (const std::string& folder : folders)
-  {
-    if (!std::filesystem::is_directory(folder))
-    {
-      throw std::runtime_error("'" + folder + "' is not a folder");
-    }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    {
-      if (entry.is_regular_file())
-      {
-        names.push_back(entry.path());
-      }
-    }
-  }
-  std::sort(names.begin(), names.end());
-  std::vector<cv::Mat> photographs;
-  for (const std::string& name : names)
-  {
-    try
-    {
-      cv::Mat image = omr::readImage(name);
-      const double shrink = MAX_SIDE / std::max(image.cols, image.rows);
-      if (shrink < 1)
-      {
-        cv::resize(image, image, {}, shrink, shrink, cv::INTER_AREA);
-      }
-      if (std::min(image.cols, image.rows) < MIN_SIDE)
-      {
-        throw std::invalid_argument("narrower than " + std::to_string(MIN_SIDE) + " px");
-      }
-      photographs.push_back(image);
-    }
-    catch (const std::invalid_argument& error)
-    {
-      std::cerr << "omr_train: left out: " << name << ": " << error.what() << "\n";
-    }
-  }
-  return photographs;
-}
-
-/** Of every few photographs one is held out. */
-std::vector<cv::Mat> part(const std::vector<cv::Mat>& photographs, int held_out, bool held)
-{
-  std::vector<cv::Mat> chosen;
-  for (std::size_t i = 0; i < photographs.size(); ++i)
-  {
-    if ((i % held_out == held_out - 1U) == held)
-    {
-      chosen.push_back(photographs[i]);
-    }
-  }
-  return chosen;
-}
+/** The scenes that are held out are those of no seed of the training. */
+constexpr unsigned HELD_OUT_SEED = 4000000000U;
 
 using Wanted = std::function<bool(cv::RNG&, const float*, omr::WindowLabel)>;
 
@@ -122,25 +63,38 @@ omr::WindowSet collect(int count, unsigned seed, const Work& work)
   return all;
 }
 
-omr::WindowSet sceneWindows(const std::vector<cv::Mat>& backgrounds, int count, unsigned seed, const Wanted& wanted)
+/** What the windows of pictures are taken from, and those without a marker. */
+struct Pictures
 {
-  return collect(count, seed, [&](int /*i*/, cv::RNG& random, omr::WindowSet& windows) {
-    const cv::Mat& background = backgrounds[random.uniform(0, static_cast<int>(backgrounds.size()))];
-    const omr::MarkerScene scene = omr::renderMarkerScene(background, random);
-    omr::addWindows(
-        scene.image, scene.markers,
-        [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
-  });
-}
+  const std::vector<cv::Mat>& photographs;
+  int scenes;  ///< with markers; and half as many with patterns that resemble them
 
-omr::WindowSet photographWindows(const std::vector<cv::Mat>& photographs, unsigned seed, const Wanted& wanted)
-{
-  return collect(static_cast<int>(photographs.size()), seed, [&](int i, cv::RNG& random, omr::WindowSet& windows) {
-    omr::addWindows(
-        photographs[i], {},
-        [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
-  });
-}
+  const cv::Mat& any(cv::RNG& random) const
+  {
+    return photographs[random.uniform(0, static_cast<int>(photographs.size()))];
+  }
+
+  omr::WindowSet markers(unsigned seed, const omr::FeedForward& gate, const Wanted& wanted) const
+  {
+    return collect(scenes, seed, [&](int /*i*/, cv::RNG& random, omr::WindowSet& windows) {
+      const omr::MarkerScene scene = omr::renderMarkerScene(any(random), random);
+      omr::addWindows(
+          scene.image, scene.markers, gate,
+          [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
+    });
+  }
+
+  omr::WindowSet clutter(unsigned seed, const omr::FeedForward& gate, const Wanted& wanted) const
+  {
+    const int count = static_cast<int>(photographs.size());
+    return collect(count + scenes / 2, seed, [&](int i, cv::RNG& random, omr::WindowSet& windows) {
+      const cv::Mat picture = i < count ? photographs[i] : omr::renderClutterScene(any(random), random);
+      omr::addWindows(
+          picture, {}, gate,
+          [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
+    });
+  }
+};
 
 void printCounts(const char* name, const omr::WindowSet& windows)
 {
@@ -153,32 +107,61 @@ void printCounts(const char* name, const omr::WindowSet& windows)
             << " on clutter" << std::endl;
 }
 
-cv::Ptr<cv::ml::ANN_MLP> train(const Options& options, const std::vector<cv::Mat>& photographs)
+/** The thresholds at which the gate loses a share of the windows of each kind. */
+omr::MarkerScores gateThresholds(const omr::FeedForward& gate, const omr::WindowSet& windows, double lost)
+{
+  std::array<std::vector<float>, omr::MARKER_KINDS> scores;
+  for (std::size_t i = 0; i < windows.labels.size(); ++i)
+  {
+    const int label = static_cast<int>(windows.labels[i]);
+    if (label < omr::MARKER_KINDS)
+    {
+      const auto* inputs = windows.gate.ptr<float>(static_cast<int>(i));
+      scores[label].push_back(omr::markerScores(gate, omr::GATE_INPUTS, inputs)[label]);
+    }
+  }
+  omr::MarkerScores thresholds = {-1, -1};
+  for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
+  {
+    if (!scores[kind].empty())
+    {
+      std::sort(scores[kind].begin(), scores[kind].end());
+      thresholds[kind] = scores[kind][static_cast<std::size_t>(lost * (scores[kind].size() - 1.))];
+    }
+  }
+  return thresholds;
+}
+
+omr::MarkerNetwork train(const Options& options, const std::vector<cv::Mat>& photographs)
 {
   const Wanted some = [](cv::RNG& random, const float* /*features*/, omr::WindowLabel label) {
     return label == omr::WindowLabel::target ||
            random.uniform(0., 1.) < (label == omr::WindowLabel::checkerboard ? CHECKERBOARD_SHARE : CLUTTER_SHARE);
   };
-  omr::WindowSet windows = sceneWindows(photographs, options.scenes, 4 * options.seed, some);
-  windows.append(photographWindows(photographs, 4 * options.seed + 1, some));
+  const Pictures pictures = {photographs, options.scenes};
+  const unsigned seed = 8 * options.seed;
+  omr::WindowSet windows = pictures.markers(seed, {}, some);
+  windows.append(pictures.clutter(seed + 1, {}, some));
   printCounts("training", windows);
-  cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows, options.hidden, options.epochs);
-  for (int round = 1; round < options.rounds; ++round)
+  omr::MarkerNetwork network;
+  omr::FeedForward& gate = network.gate;
+  gate = omr::toFeedForward(*omr::trainNetwork(windows.gate, windows.labels, options.gate, options.epochs), {});
+  gate.thresholds = gateThresholds(gate, windows, options.lost);
+  for (int round = 0; round < options.rounds; ++round)
   {
-    const omr::MarkerNetwork network = omr::toMarkerNetwork(*trained, {});
-    windows.append(photographWindows(photographs, 4 * options.seed + 2,
-                                     [&](cv::RNG& random, const float* features, omr::WindowLabel /*label*/) {
-                                       if (random.uniform(0., 1.) >= HARD_SHARE)
-                                       {
-                                         return false;
-                                       }
-                                       const omr::MarkerScores scores = omr::markerScores(network, features);
-                                       return std::max(scores[0], scores[1]) > HARD_SCORE;
-                                     }));
-    printCounts("with hard clutter", windows);
-    trained = omr::trainNetwork(windows, options.hidden, options.epochs);
+    const Wanted hard = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel /*label*/) {
+      const omr::MarkerScores scores = omr::markerScores(network, features);
+      return std::max(scores[0], scores[1]) > HARD_SCORE;
+    };
+    if (round > 0)
+    {
+      windows.append(pictures.clutter(seed + 1 + round, gate, hard));
+      printCounts("with hard clutter", windows);
+    }
+    static_cast<omr::FeedForward&>(network) = omr::toFeedForward(
+        *omr::trainNetwork(windows.features, windows.labels, options.hidden, options.epochs), {1, 1});
   }
-  return trained;
+  return network;
 }
 
 /** The scores of all windows of pictures that training has not seen. */
@@ -193,9 +176,9 @@ omr::ScoreCounts holdOut(const Options& options, const std::vector<cv::Mat>& pho
     counts.add(label, scores);
     return false;
   };
-  const int scenes = std::max(1, options.scenes / options.held_out);
-  counts.addPlain(sceneWindows(photographs, scenes, 4 * options.seed + 3, score));
-  counts.addPlain(photographWindows(photographs, 0, score));
+  const Pictures pictures = {photographs, std::max(1, options.scenes / options.held_out)};
+  counts.addPlain(pictures.markers(HELD_OUT_SEED, network.gate, score));
+  counts.addPlain(pictures.clutter(HELD_OUT_SEED + 1, network.gate, score));
   return counts;
 }
 
@@ -231,9 +214,9 @@ std::string date()
 void run(const Options& options, const std::string& command)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);
-  const std::vector<cv::Mat> photographs = readPhotographs(options.photographs);
-  const std::vector<cv::Mat> learned = part(photographs, options.held_out, false);
-  const std::vector<cv::Mat> held = part(photographs, options.held_out, true);
+  const std::vector<cv::Mat> photographs = omr::readPhotographs(options.photographs);
+  const std::vector<cv::Mat> learned = omr::part(photographs, options.held_out, false);
+  const std::vector<cv::Mat> held = omr::part(photographs, options.held_out, true);
   if (held.empty())
   {
     throw std::runtime_error("there are " + std::to_string(photographs.size()) +
@@ -245,7 +228,7 @@ void run(const Options& options, const std::string& command)
          << date() << ", " << learned.size() << " photographs and " << options.scenes
          << " scenes; held out: " << held.size() << " photographs and "
          << std::max(1, options.scenes / options.held_out) << " scenes\n";
-  omr::MarkerNetwork network = omr::toMarkerNetwork(*train(options, learned), {1, 1});
+  omr::MarkerNetwork network = train(options, learned);
   const omr::ScoreCounts counts = holdOut(options, held, network);
   for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
   {
@@ -285,6 +268,12 @@ int parseAndRun(int argc, char** argv)
   app.add_option("--hidden", options.hidden, "units of the hidden layer")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
+  app.add_option("--gate", options.gate, "units of the gate, which looks at all windows first")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16));
+  app.add_option("--lost", options.lost, "share of the windows with a marker that the gate may lose")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 1.));
   app.add_option("--epochs", options.epochs, "passes over the windows")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));

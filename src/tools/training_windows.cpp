@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+
+#include "outdoor_omr/each_window.h"
+#include "outdoor_omr/window_scores.h"
 
 namespace omr
 {
@@ -103,15 +105,20 @@ WindowLabel labelOf(const cv::Rect& window, int level, const std::vector<PlacedM
   return label;
 }
 
-void WindowSet::append(const float* window, WindowLabel label)
+void WindowSet::append(const float* window, const float* gate_inputs, WindowLabel label)
 {
   features.push_back(cv::Mat(1, HAAR_FEATURES, CV_32FC1, const_cast<float*>(window)));
+  gate.push_back(cv::Mat(1, GATE_INPUTS, CV_32FC1, const_cast<float*>(gate_inputs)));
   labels.push_back(label);
 }
 
 void WindowSet::append(const WindowSet& other)
 {
-  features.push_back(other.features);
+  if (!other.labels.empty())
+  {
+    features.push_back(other.features);
+    gate.push_back(other.gate);
+  }
   labels.insert(labels.end(), other.labels.begin(), other.labels.end());
   plain_clutter += other.plain_clutter;
   for (int kind = 0; kind < MARKER_KINDS; ++kind)
@@ -120,35 +127,28 @@ void WindowSet::append(const WindowSet& other)
   }
 }
 
-void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers,
+void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers, const FeedForward& gate,
                 const std::function<bool(const float* features, WindowLabel label)>& wanted, WindowSet& windows)
 {
-  cv::Mat integral;
-  cv::integral(bgr, integral, CV_32S);
   std::array<float, HAAR_FEATURES> features = {};
-  for (int level = 0; level < HAAR_LEVELS; ++level)
-  {
-    const cv::Mat cells = haarCells(integral, level);
-    const cv::Size grid = windowGrid(bgr.size(), level);
-    for (int i = 0; i < grid.area(); ++i)
+  std::array<float, GATE_INPUTS> inputs = {};
+  forEachWindow(bgr, [&](const cv::Mat& cells, const cv::Point& first, const cv::Point& index, int level) {
+    const WindowLabel label = labelOf(windowRect(index, level), level, markers);
+    if (label == WindowLabel::partly)
     {
-      const cv::Point index(i % grid.width, i / grid.width);
-      const WindowLabel label = labelOf(windowRect(index, level), level, markers);
-      if (label == WindowLabel::partly)
-      {
-        continue;
-      }
-      const bool clutter = label == WindowLabel::clutter;
-      if (!haarFeatures(cells, index * WINDOW_STRIDE, features.data()))
-      {
-        (clutter ? windows.plain_clutter : windows.plain_markers[static_cast<int>(label)]) += 1;
-      }
-      else if (wanted(features.data(), label))
-      {
-        windows.append(features.data(), label);
-      }
+      return;
     }
-  }
+    if (!passesGate(cells, first, gate) || !haarFeatures(cells, first, features.data()))
+    {
+      const bool clutter = label == WindowLabel::clutter;
+      (clutter ? windows.plain_clutter : windows.plain_markers[static_cast<int>(label)]) += 1;
+    }
+    else if (wanted(features.data(), label))
+    {
+      gateInputs(cells, first, inputs.data());
+      windows.append(features.data(), inputs.data(), label);
+    }
+  });
 }
 
 }  // namespace omr

@@ -30,11 +30,13 @@ WindowLabel labelOf(const cv::Rect& window, int level, const std::vector<PlacedM
 struct WindowSet
 {
   cv::Mat features;  ///< N x HAAR_FEATURES, CV_32FC1
+  cv::Mat gate;      ///< N x GATE_INPUTS, CV_32FC1
   std::vector<WindowLabel> labels;
-  std::array<long, MARKER_KINDS> plain_markers = {};  ///< windows with a marker that lack the contrast for features
+  std::array<long, MARKER_KINDS> plain_markers = {};  ///< windows with a marker that lack the contrast for features, or
+                                                      ///< that the gate rejects
   long plain_clutter = 0;                             ///< such windows without one
 
-  void append(const float* window, WindowLabel label);
+  void append(const float* window, const float* gate_inputs, WindowLabel label);
   void append(const WindowSet& other);
 };
 
@@ -42,9 +44,10 @@ struct WindowSet
  * Adds the windows of an image, but for those that show a marker partly.
  *
  * @param markers in the image; none in a photograph without.
+ * @param gate    windows that do not pass it have no features.
  * @param wanted  of the windows with features: whether one is added.
  */
-void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers,
+void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers, const FeedForward& gate,
                 const std::function<bool(const float* features, WindowLabel label)>& wanted, WindowSet& windows);
 
 }  // namespace omr

@@ -1,0 +1,115 @@
+// The first look at windows: a small network on blocks of cells (paper, section 4.5). A plain version:
+// gateInputs() in include/outdoor_omr/haar_features.h, window_scores.h.
+
+#include "cells.cl"
+#include "network.cl"
+
+/** Units of the gate, and windows that are looked at together. */
+#define GATE_UNITS 16
+#define LEAST_BLOCK_CONTRAST 640
+#define LARGEST_INPUT 6.0f
+
+/** 16 blocks at any address in one load. */
+typedef struct __attribute__((packed))
+{
+  short16 blocks;
+} Shorts16;
+
+INLINE int16 blocksOf16(global const short* at)
+{
+  return convert_int16(((global const Shorts16*)at)->blocks);
+}
+
+INLINE int16 magnitude16(int16 value)
+{
+  return value > -value ? value : -value;
+}
+
+/**
+ * Which windows of a level may show a marker at the first look, one group a row of windows, 16 of them at a time: their
+ * blocks lie side by side.
+ *
+ * @param blocks  as haarCells gives them; 16 more may be read behind the last one.
+ * @param weights bias of the GATE_UNITS units, a row of them for each input, then bias and weights of either output.
+ * @param units   0: every window passes.
+ */
+kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_across, int blocks_down,
+                              global const float* restrict weights, int units, float least_checkerboard,
+                              float least_target, int windows_across, global uchar* restrict passes)
+{
+  const size_t plane = (size_t)blocks_down * blocks_across;
+  const int row = get_group_id(0);
+  global uchar* restrict out = passes + (size_t)row * windows_across;
+  for (int i = 16 * get_local_id(0); i < windows_across; i += 16 * LANES)
+  {
+    global const short* start = blocks + (size_t)row * blocks_across + i;
+    int16 sum = 0;
+    int16 contrast = 0;
+    for (int y = 0; y < 4; ++y)
+    {
+      for (int x = 0; x < 4; ++x)
+      {
+        global const short* at = start + y * blocks_across + x;
+        sum += blocksOf16(at);
+        contrast += blocksOf16(at + 3 * plane) + blocksOf16(at + 4 * plane);
+      }
+    }
+    const int16 mean = sum / 16;
+    int16 between = 0;
+    for (int y = 0; y < 4; ++y)
+    {
+      for (int x = 0; x < 4; ++x)
+      {
+        between += magnitude16(blocksOf16(start + y * blocks_across + x) - mean);
+      }
+    }
+    contrast += between / 2;
+    int16 pass = contrast >= LEAST_BLOCK_CONTRAST;
+    if (units > 0 && any(pass))
+    {
+      const float16 scale = 16 / convert_float16(max(contrast, 1));
+      float16 unit[GATE_UNITS];
+      for (int u = 0; u < GATE_UNITS; ++u)
+      {
+        unit[u] = weights[u];
+      }
+      global const float* weight = weights;
+      for (int y = 0; y < 4; ++y)
+      {
+        for (int x = 0; x < 4; ++x)
+        {
+          global const short* at = start + y * blocks_across + x;
+          for (int k = 0; k < BLOCK_PLANES; ++k)
+          {
+            const int16 value = blocksOf16(at + k * plane) - (k == 0 ? mean : 0);
+            const float16 input = clamp(convert_float16(value) * scale, -LARGEST_INPUT, LARGEST_INPUT);
+            weight += GATE_UNITS;
+#pragma unroll
+            for (int u = 0; u < GATE_UNITS; ++u)
+            {
+              unit[u] = mad(input, weight[u], unit[u]);
+            }
+          }
+        }
+      }
+      weight += GATE_UNITS;
+      float16 checkerboard = weight[0];
+      float16 target = weight[GATE_UNITS + 1];
+      for (int u = 0; u < GATE_UNITS; ++u)
+      {
+        const float16 active = activation(unit[u]);
+        checkerboard = mad(active, weight[u + 1], checkerboard);
+        target = mad(active, weight[GATE_UNITS + u + 2], target);
+      }
+      // The outputs are compared before their activation, which rises.
+      pass &= checkerboard > least_checkerboard || target > least_target;
+    }
+    pass = units > 0 ? pass : 1;
+    int kept[16];
+    vstore16(pass, 0, kept);
+    for (int lane = 0; lane < min(16, windows_across - i); ++lane)
+    {
+      out[i + lane] = kept[lane] != 0;
+    }
+  }
+}
