@@ -87,13 +87,15 @@ void drawGrille(const Sheet& sheet)
 {
   const double width = sheet.random.uniform(.05, .3);
   const double step = sheet.random.uniform(1., 2.);
-  for (double x = 0; x < sheet.columns; ++x)
+  for (int x = 0; x < sheet.columns; ++x)
   {
     sheet.fill(x, 0, x + width, sheet.rows, sheet.ink);
   }
-  for (double y = 0; y < sheet.rows; y += step)
+  double y = 0;
+  while (y < sheet.rows)
   {
     sheet.fill(0, y, sheet.columns, y + width, sheet.ink);
+    y += step;
   }
 }
 
@@ -159,7 +161,9 @@ void drawMosaic(const Sheet& sheet)
   {
     for (int x = 0; x <= sheet.columns; ++x)
     {
-      knots.push_back({x + sheet.random.uniform(-.4, .4), y + sheet.random.uniform(-.4, .4)});
+      const double right = sheet.random.uniform(-.4, .4);  // before down, whatever the compiler
+      const double down = sheet.random.uniform(-.4, .4);
+      knots.emplace_back(x + right, y + down);
     }
   }
   sheet.forEachPlace([&](int x, int y) {

@@ -32,8 +32,9 @@ cv::Mat sunlight(const cv::Size& size, cv::RNG& random)
     outline.reserve(4);
     for (int corner = 0; corner < 4; ++corner)
     {
-      outline.push_back(
-          {random.uniform(-size.width / 4, size.width * 5 / 4), random.uniform(-size.height / 4, size.height * 5 / 4)});
+      const int x = random.uniform(-size.width / 4, size.width * 5 / 4);  // before y, whatever the compiler
+      const int y = random.uniform(-size.height / 4, size.height * 5 / 4);
+      outline.emplace_back(x, y);
     }
     cv::Mat shadow = cv::Mat::zeros(size, CV_32FC1);
     cv::fillConvexPoly(shadow, outline, cv::Scalar(random.uniform(.3, .85)));
