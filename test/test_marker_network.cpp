@@ -148,6 +148,13 @@ TEST(MarkerNetwork, refusesWhatIsNone)
   expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5, .nan"), "hidden_units[0]");
   expectRefused(smallNetwork() + "gate: {thresholds: {checkerboard: 0, target: 0}, hidden_units: [[1]]}\n",
                 "gate.hidden_units[0]");
+  std::string units = "[1]";
+  for (int unit = 1; unit <= omr::MAX_GATE_UNITS; ++unit)
+  {
+    units += ", [1]";
+  }
+  expectRefused(smallNetwork() + "gate: {thresholds: {checkerboard: 0, target: 0}, hidden_units: [" + units + "]}\n",
+                "there are 17 units, expected 1 to 16");
   expectRefused("thresholds: {checkerboard: 0, target: 0}\nhidden_units: []\noutput_units: []\n", "hidden_units");
 }
 

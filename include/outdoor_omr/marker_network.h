@@ -35,13 +35,15 @@ struct FeedForward
   }
 };
 
+constexpr int MAX_GATE_UNITS = 16;  ///< which kernels/gate.cl computes at once
+
 /**
  * The network that tells windows with markers from others (paper, section 4.5), by the features of haar_features.h.
  * Windows that the gate, a smaller network on gateInputs(), finds no marker in are not looked at any further.
  */
 struct MarkerNetwork : FeedForward
 {
-  FeedForward gate;  ///< of no hidden units: every window passes
+  FeedForward gate;  ///< of MAX_GATE_UNITS hidden units at most; of none: every window passes
 };
 
 /** @param inputs of the network: HAAR_FEATURES values for a MarkerNetwork, GATE_INPUTS for its gate. */

@@ -37,7 +37,7 @@ void appendUnits(const YamlFile& layer, const std::string& expected, std::size_t
 }
 
 /** The keys of a network, which others may stand beside. */
-void readUnits(const YamlFile& file, std::size_t inputs, FeedForward& network)
+void readUnits(const YamlFile& file, std::size_t inputs, int max_hidden, FeedForward& network)
 {
   const YamlFile thresholds = file.get("thresholds", "the thresholds of the scores");
   thresholds.allowOnly({"checkerboard", "target"}, "a map of checkerboard and target");
@@ -45,9 +45,9 @@ void readUnits(const YamlFile& file, std::size_t inputs, FeedForward& network)
   network.thresholds[1] = static_cast<float>(thresholds.get("target", "a score").number("a score", -1, 1));
   const YamlFile hidden = file.get("hidden_units", "a list of units");
   network.hidden = static_cast<int>(hidden.list("a list of units").size());
-  if (network.hidden == 0 || network.hidden > MAX_HIDDEN)
+  if (network.hidden == 0 || network.hidden > max_hidden)
   {
-    hidden.fail("there are " + std::to_string(network.hidden) + " units, expected 1 to " + std::to_string(MAX_HIDDEN));
+    hidden.fail("there are " + std::to_string(network.hidden) + " units, expected 1 to " + std::to_string(max_hidden));
   }
   appendUnits(hidden, "a list of units", network.hidden, inputs, network.weights);
   appendUnits(file.get("output_units", "two units"), "two units", MARKER_KINDS, network.hidden, network.weights);
@@ -58,13 +58,13 @@ MarkerNetwork readMarkerNetwork(const YamlFile& file)
   file.allowOnly({"thresholds", "hidden_units", "output_units", "gate"},
                  "a map of thresholds, hidden_units, output_units and gate");
   MarkerNetwork network;
-  readUnits(file, HAAR_FEATURES, network);
+  readUnits(file, HAAR_FEATURES, MAX_HIDDEN, network);
   if (file.has("gate"))
   {
     const YamlFile gate = file.get("gate", "a network");
     gate.allowOnly({"thresholds", "hidden_units", "output_units"},
                    "a map of thresholds, hidden_units and output_units");
-    readUnits(gate, GATE_INPUTS, network.gate);
+    readUnits(gate, GATE_INPUTS, MAX_GATE_UNITS, network.gate);
   }
   return network;
 }

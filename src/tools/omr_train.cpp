@@ -270,7 +270,7 @@ int parseAndRun(int argc, char** argv)
       ->check(CLI::Range(1, 256));
   app.add_option("--gate", options.gate, "units of the gate, which looks at all windows first")
       ->capture_default_str()
-      ->check(CLI::Range(1, 16));
+      ->check(CLI::Range(1, omr::MAX_GATE_UNITS));
   app.add_option("--lost", options.lost, "share of the windows with a marker that the gate may lose")
       ->capture_default_str()
       ->check(CLI::Range(0., 1.));
