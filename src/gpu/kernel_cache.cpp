@@ -58,7 +58,8 @@ std::string cacheFolder()
   return variable("HOME").empty() ? "" : variable("HOME") + "/.cache/pocl/kcache";
 }
 
-/** A file of that folder that says that these kernels were built for the device: it goes where they go. */
+/** A file of that folder that says that these kernels were built for the device: it goes where they go. Empty if the
+ * folder is unknown. */
 std::string stampFile(const Device& device)
 {
   std::string key =
@@ -67,7 +68,8 @@ std::string stampFile(const Device& device)
   {
     key += KERNEL_SOURCES[i];
   }
-  return cacheFolder() + "/outdoor_omr." + std::to_string(std::hash<std::string>()(key));
+  const std::string folder = cacheFolder();
+  return folder.empty() ? "" : folder + "/outdoor_omr." + std::to_string(std::hash<std::string>()(key));
 }
 
 /** Runs a program to its end. @return whether it ended well */
