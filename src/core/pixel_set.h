@@ -2,7 +2,6 @@
 #define OUTDOOR_OMR_CORE_PIXEL_SET_H
 
 #include <cstdint>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -39,9 +38,8 @@ class PixelSet
     const std::uint8_t* row = &bytes_[static_cast<std::size_t>(pixel.y) * stride_ + pixel.x / 8];
     for (int i = 0; i < SIDE; ++i, row += stride_)
     {
-      std::uint16_t word;
-      std::memcpy(&word, row, sizeof(word));
-      bits |= static_cast<std::uint32_t>(word >> (pixel.x % 8) & ((1 << SIDE) - 1)) << (SIDE * i);
+      const std::uint32_t word = row[0] | static_cast<std::uint32_t>(row[1]) << 8;
+      bits |= (word >> (pixel.x % 8) & ((1U << SIDE) - 1)) << (SIDE * i);
     }
     return bits;
   }
