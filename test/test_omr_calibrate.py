@@ -95,6 +95,24 @@ class OmrCalibrate(unittest.TestCase):
         self.assertIn('empty.png: no such board', result.stdout)
         self.assertIn('4 of 5 images', result.stdout)
 
+    def test_the_largest_board_counts(self):
+        # The copy on a screen behind shows all its corners, the board in the hand does not.
+        seen = cv2.imread(self.images[6])
+        copy = cv2.resize(seen, (240, 180), interpolation=cv2.INTER_AREA)
+        seen = cv2.copyMakeBorder(seen, 180, 0, 0, 0, cv2.BORDER_CONSTANT, value=(120, 125, 130))
+        seen[:180, :240] = copy
+        turn, shift = POSES[6]
+        corner = cv2.projectPoints(np.array([[.08, .05, 0]]), cv2.Rodrigues(turn)[0], shift, plate.CAMERA, None)[0]
+        x, y = np.rint(corner.ravel()).astype(int) + (0, 180)
+        cv2.circle(seen, (int(x), int(y)), 40, (90, 120, 170), -1)
+        image, output = self.path('copy.png'), self.path('copy.vnl')
+        cv2.imwrite(image, seen)
+        result = self.calibrate('--mrcal', output, image, image, image)
+        self.assertEqual(0, result.returncode, result.stderr)
+        with open(output) as file:
+            points = np.array([line.split()[1:3] for line in file if '-' not in line.split() and line[0] != '#'], float)
+        self.assertGreater(points[:, 1].min(), 180)
+
     def test_mistakes_are_named(self):
         self.assert_fails('the board was found in 2 of 2 images: three are the least', self.calibrate(*self.images[:2]))
         self.assert_fails('the board was found in 0 of 3 images',
