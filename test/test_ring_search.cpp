@@ -51,7 +51,7 @@ TEST(RingSearch, clutterTakesNoMoreThanTheAllowedLooks)
   const cv::Mat image = clutter({1600, 1200});
   const omr::RegionMap regions = regionsOf(image);
   omr::EdgelMap map(image);
-  EXPECT_TRUE(omr::findRingCandidates(map, image, regions, {}, 3).empty());
+  EXPECT_TRUE(omr::findRingCandidates(map, image, regions, {}, {}, 3).empty());
   EXPECT_GT(map.looks(), .5 * omr::allowedLooks(image.size()));
   EXPECT_LT(map.looks(), omr::allowedLooks(image.size()) + ONE_GROWTH);
 }
@@ -63,7 +63,7 @@ TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)
   cv::Mat image = clutter({1600, 1200});
   target.copyTo(image(cv::Rect(cv::Point(600, 400), target.size())));
   omr::EdgelMap map(image);
-  const auto candidates = omr::findRingCandidates(map, image, regionsOf(image), {}, 3);
+  const auto candidates = omr::findRingCandidates(map, image, regionsOf(image), {}, {}, 3);
   ASSERT_EQ(1U, candidates.size());
   EXPECT_EQ(5, candidates[0].ring_count);
   EXPECT_NEAR(0, cv::norm(candidates[0].rings.family.center - projectedCenter(scene) - cv::Point2d(600, 400)), .2);
@@ -77,14 +77,15 @@ TEST(RingSearch, seedsGrownAheadGiveTheSame)
   target.copyTo(image(cv::Rect(cv::Point(50, 60), target.size())));
   target.copyTo(image(cv::Rect(cv::Point(600, 100), target.size())));
   const omr::RegionMap regions = regionsOf(image);
-  omr::RoundSeeds seeds = omr::toRoundSeeds(regions);
+  omr::RoundSeeds seeds;
+  omr::addRoundSeeds(regions, seeds);
   omr::EdgelMap map(image);
   omr::growConcentric(map, image, 3, seeds);
   const auto is_grown = [](const auto& grown) { return grown && grown->is_target; };
   EXPECT_EQ(2, std::count_if(seeds.grown.begin(), seeds.grown.end(), is_grown)) << "one a target";
   const auto ahead = omr::findRingCandidates(map, image, regions, std::move(seeds), {}, 3);
   omr::EdgelMap other_map(image);
-  const auto alone = omr::findRingCandidates(other_map, image, regions, {}, 3);
+  const auto alone = omr::findRingCandidates(other_map, image, regions, {}, {}, 3);
   EXPECT_EQ(other_map.looks(), map.looks());
   ASSERT_EQ(2U, alone.size());
   ASSERT_EQ(2U, ahead.size());
@@ -100,7 +101,8 @@ TEST(RingSearch, seedsGrownAheadOnABoardAreNoTargets)
   TargetScene scene;
   const cv::Mat image = renderTarget(scene);
   const omr::RegionMap regions = regionsOf(image);
-  omr::RoundSeeds seeds = omr::toRoundSeeds(regions);
+  omr::RoundSeeds seeds;
+  omr::addRoundSeeds(regions, seeds);
   omr::EdgelMap map(image);
   omr::growConcentric(map, image, 3, seeds);
   omr::Checkerboard board;
@@ -122,7 +124,7 @@ TEST(RingSearch, isTheSameForAnyNumberOfThreads)
   {
     cv::setNumThreads(count);
     omr::EdgelMap map(image);
-    for (const omr::RingCandidate& candidate : omr::findRingCandidates(map, image, regions, {}, 3))
+    for (const omr::RingCandidate& candidate : omr::findRingCandidates(map, image, regions, {}, {}, 3))
     {
       centers.push_back(candidate.rings.family.center);
     }
@@ -139,7 +141,7 @@ TEST(RingSearch, anEmptyPictureTakesNoLooks)
 {
   const cv::Mat image(300, 400, CV_8UC3, cv::Scalar::all(90));
   omr::EdgelMap map(image);
-  EXPECT_TRUE(omr::findRingCandidates(map, image, regionsOf(image), {}, 3).empty());
+  EXPECT_TRUE(omr::findRingCandidates(map, image, regionsOf(image), {}, {}, 3).empty());
   EXPECT_LT(map.looks(), 10000);
 }
 

@@ -19,13 +19,6 @@ void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int mi
       growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
 }
 
-RoundSeeds toRoundSeeds(const RegionMap& regions)
-{
-  RoundSeeds seeds;
-  addRoundSeeds(regions, seeds);
-  return seeds;
-}
-
 void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds)
 {
   if (!seeds.has_seeds)

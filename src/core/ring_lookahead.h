@@ -36,8 +36,6 @@ struct RoundSeeds
   bool has_seeds = false;
 };
 
-RoundSeeds toRoundSeeds(const RegionMap& regions);
-
 /** Finds the round seeds, if that was not done before. */
 void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 

@@ -217,12 +217,6 @@ std::size_t sharedLooks(const cv::Size& image_size, double share)
 }
 
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
-                                              const std::vector<Checkerboard>& boards, int min_rings)
-{
-  return findRingCandidates(map, bgr, regions, toRoundSeeds(regions), boards, min_rings);
-}
-
-std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
 {
   growFamilies(map, bgr, min_rings, seeds);

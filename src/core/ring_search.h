@@ -22,17 +22,13 @@ std::size_t sharedLooks(const cv::Size& image_size, double share);
  * clutter the search takes more.
  *
  * @param bgr       H x W, CV_8UC3; the map's image.
- * @param seeds     of the regions.
+ * @param seeds     what is found and grown already; the rest is done here.
  * @param boards    what lies on them is no target.
  * @param min_rings of a target.
  * @return          what isTarget(), the best of each place.
  */
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings);
-
-/** The same with the seeds of the regions. */
-std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
-                                              const std::vector<Checkerboard>& boards, int min_rings);
 
 }  // namespace omr
 
