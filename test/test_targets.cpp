@@ -3,46 +3,13 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "outdoor_omr/reference_fill.h"
-#include "outdoor_omr/targets.h"
-#include "render_target.h"
+#include "target_views.h"
 
 using omr::Settings;
 using omr::Target;
-
-namespace
-{
-omr::RegionMap regionsOf(const cv::Mat& image, const Settings& settings)
-{
-  const cv::Mat filtered = omr::filterImage(image, settings.filter, settings.filter_size);
-  const cv::Mat edges = omr::edgeMask(filtered, omr::edgeThreshold(settings));
-  omr::RegionMap regions;
-  regions.size = image.size();
-  for (const auto& sums : omr::sumRegions(filtered, edges, omr::labelRegions(edges)))
-  {
-    if (static_cast<int>(sums.area) >= settings.region_min_area &&
-        sums.area <= settings.region_max_share * image.total())
-    {
-      regions.regions.push_back(omr::toRegion(sums));
-    }
-  }
-  return regions;
-}
-
-std::vector<Target> find(const cv::Mat& image, const Settings& settings = Settings())
-{
-  return omr::findTargets(omr::makeFrame(image), regionsOf(image, settings), {}, settings);
-}
-
-void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1)
-{
-  const std::vector<Target> targets = find(renderTarget(scene));
-  ASSERT_EQ(1U, targets.size());
-  EXPECT_EQ(colors, targets[0].colors);
-  EXPECT_EQ(colors.size(), targets[0].rings.size());
-  EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), tolerance);
-}
-}  // namespace
+using omr::test::expectFound;
+using omr::test::findTargetsIn;
+using omr::test::targetRegions;
 
 TEST(Targets, readsEveryColourOnPaper)
 {
@@ -68,7 +35,7 @@ TEST(Targets, ringsAreTheEllipsesOfTheCircles)
 {
   TargetScene scene;
   scene.homography = tiltedView({240, 180}, .7, .5, 1, 600);
-  const std::vector<Target> targets = find(renderTarget(scene));
+  const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
   ASSERT_EQ(1U, targets.size());
   ASSERT_EQ(5U, targets[0].rings.size());
   for (std::size_t k = 0; k < 5; ++k)
@@ -132,149 +99,12 @@ TEST(Targets, colouredAndTexturedGround)
   expectFound(scene, "BWPWR");
 }
 
-TEST(Targets, halfInHardShadow)
-{
-  TargetScene scene;
-  scene.shadow = .2;
-  scene.noise = 1;
-  for (const std::string colors : {"RWPGB", "WRWBP"})
-  {
-    scene.colors = colors;
-    expectFound(scene, colors, .2);
-  }
-}
-
-TEST(Targets, tintedAndUnevenLight)
-{
-  TargetScene scene;
-  scene.tint = {.6, .9, 1};
-  scene.gradient = .8;
-  scene.light = .6;
-  expectFound(scene, "RWPGB");
-}
-
-TEST(Targets, partlyHidden)
-{
-  TargetScene scene;
-  scene.occluder = .25;
-  expectFound(scene, "RWPGB", .3);
-}
-
 TEST(Targets, smallRings)
 {
   TargetScene scene;
   scene.colors = "WPWP";
   scene.radii = {5, 10, 15, 20};
   expectFound(scene, "WPWP");
-}
-
-TEST(Targets, theDisksColourIsThatOfItsSunnySide)
-{
-  // A shadow covers the disk but for its rim.
-  TargetScene scene;
-  scene.shadow = .08;
-  for (const std::string colors : {"WGPBG", "WPGBG", "GWPBG"})
-  {
-    scene.colors = colors;
-    for (const double offset : {-14., 10.})
-    {
-      scene.shadow_offset = offset;
-      expectFound(scene, colors, .2);
-    }
-  }
-}
-
-TEST(Targets, aDiskUnderABarsShadowIsNotBlack)
-{
-  // White in the shade is as dark as black in the sun; the rings around are in the sun, but for the bar's shadow.
-  TargetScene scene;
-  scene.shadow = .08;
-  scene.shadow_offset = -23;
-  scene.shadow_width = 46;
-  for (const std::string colors : {"WPGBG", "WRPBG", "GWPBG"})
-  {
-    scene.colors = colors;
-    const std::vector<Target> targets = find(renderTarget(scene));
-    ASSERT_EQ(1U, targets.size());
-    EXPECT_TRUE(targets[0].colors[0] == '?' || targets[0].colors[0] == colors[0]) << targets[0].colors;
-    EXPECT_EQ(colors.substr(1), targets[0].colors.substr(1));
-  }
-}
-
-TEST(Targets, aCoveredDiskIsUnknownAndKeepsItsPlace)
-{
-  TargetScene scene;
-  scene.cover_offset = {6, 4};
-  for (const double cover : {28., 46.})
-  {
-    scene.cover = cover;
-    const std::vector<Target> targets = find(renderTarget(scene));
-    ASSERT_EQ(1U, targets.size());
-    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
-    EXPECT_EQ('?', targets[0].colors[0]);
-    EXPECT_EQ("GB", targets[0].colors.substr(3)) << targets[0].colors;
-    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
-  }
-}
-
-TEST(Targets, aThingOnTheDiskAndBesideIt)
-{
-  TargetScene scene;
-  scene.cover = 45;
-  for (const cv::Point2d offset : {cv::Point2d(30, 10), cv::Point2d(-50, 40)})
-  {
-    scene.cover_offset = offset;
-    const std::vector<Target> targets = find(renderTarget(scene));
-    ASSERT_EQ(1U, targets.size());
-    ASSERT_EQ(5U, targets[0].colors.size());
-    for (std::size_t k = 0; k < 5; ++k)
-    {
-      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
-    }
-    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
-  }
-}
-
-TEST(Targets, glossTakesNoRingAndGivesNoWrongLetter)
-{
-  TargetScene scene;
-  scene.gloss = 3;
-  for (const cv::Point2d offset : {cv::Point2d(50, 10), cv::Point2d(25, -25)})
-  {
-    scene.gloss_offset = offset;
-    const std::vector<Target> targets = find(renderTarget(scene));
-    ASSERT_EQ(1U, targets.size()) << offset;
-    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors << offset;
-    for (std::size_t k = 0; k < 5; ++k)
-    {
-      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
-    }
-  }
-}
-
-TEST(Targets, faintBehindAVeil)
-{
-  TargetScene scene;
-  scene.veil = .75;
-  scene.light = .2;
-  scene.noise = .7;
-  const std::vector<Target> targets = find(renderTarget(scene));
-  ASSERT_EQ(1U, targets.size());
-  ASSERT_EQ(5U, targets[0].colors.size());
-  for (std::size_t k = 0; k < 5; ++k)
-  {
-    EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
-  }
-}
-
-TEST(Targets, archesAreNone)
-{
-  // Half of the rings, as a portal has them.
-  TargetScene scene;
-  scene.colors = "PWPWP";
-  cv::Mat image = renderTarget(scene);
-  cv::rectangle(image, cv::Rect(0, 190, image.cols, image.rows - 190), cv::Scalar::all(200), cv::FILLED);
-  EXPECT_TRUE(find(image).empty());
 }
 
 TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)
@@ -285,7 +115,7 @@ TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)
   scene.blur = .9;
   std::vector<uchar> jpeg;
   cv::imencode(".jpg", renderTarget(scene), jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
-  const std::vector<Target> targets = find(cv::imdecode(jpeg, cv::IMREAD_COLOR));
+  const std::vector<Target> targets = findTargetsIn(cv::imdecode(jpeg, cv::IMREAD_COLOR));
   ASSERT_EQ(1U, targets.size());
   EXPECT_EQ("PGRPG", targets[0].colors);
 }
@@ -296,10 +126,10 @@ TEST(Targets, minRingsDecidesAboutTwoRings)
   scene.colors = "RP";
   scene.radii = {45, 90};
   const cv::Mat image = renderTarget(scene);
-  EXPECT_TRUE(find(image).empty());
+  EXPECT_TRUE(findTargetsIn(image).empty());
   Settings settings;
   settings.target_min_rings = 2;
-  const std::vector<Target> targets = find(image, settings);
+  const std::vector<Target> targets = findTargetsIn(image, settings);
   ASSERT_EQ(1U, targets.size());
   EXPECT_EQ("RP", targets[0].colors);
 }
@@ -320,10 +150,10 @@ TEST(Targets, noneInSquaresCheckerboardsAndNoise)
                     cv::FILLED);
     }
   }
-  EXPECT_TRUE(find(image).empty());
+  EXPECT_TRUE(findTargetsIn(image).empty());
   cv::RNG random(7);
   random.fill(image, cv::RNG::NORMAL, 128, 60);
-  EXPECT_TRUE(find(image).empty());
+  EXPECT_TRUE(findTargetsIn(image).empty());
 }
 
 TEST(Targets, noneInCirclesThatAreNotConcentric)
@@ -332,7 +162,7 @@ TEST(Targets, noneInCirclesThatAreNotConcentric)
   cv::circle(image, {200, 200}, 150, cv::Scalar::all(30), cv::FILLED, cv::LINE_AA);
   cv::circle(image, {240, 180}, 90, cv::Scalar::all(230), cv::FILLED, cv::LINE_AA);
   cv::circle(image, {200, 200}, 40, cv::Scalar(30, 30, 200), cv::FILLED, cv::LINE_AA);
-  EXPECT_TRUE(find(image).empty());
+  EXPECT_TRUE(findTargetsIn(image).empty());
 }
 
 TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
@@ -341,8 +171,8 @@ TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
   scene.homography = tiltedView({240, 180}, .5, .4, 1, 900);
   scene.occluder = .3;
   const cv::Mat image = renderTarget(scene);
-  const omr::RegionMap regions = regionsOf(image, Settings());
-  const std::vector<Target> plain = find(image);
+  const omr::RegionMap regions = targetRegions(image, Settings());
+  const std::vector<Target> plain = findTargetsIn(image);
   ASSERT_EQ(1U, plain.size());
   for (const bool with_regions : {false, true})
   {
@@ -374,7 +204,7 @@ TEST(Targets, survivesTinyImages)
 {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 1), cv::Size(2, 200), cv::Size(33, 33)})
   {
-    EXPECT_TRUE(find(cv::Mat(size, CV_8UC3, cv::Scalar::all(90))).empty());
+    EXPECT_TRUE(findTargetsIn(cv::Mat(size, CV_8UC3, cv::Scalar::all(90))).empty());
   }
   omr::Frame frame;
   EXPECT_TRUE(omr::findTargets(frame, {}, {}, Settings()).empty());

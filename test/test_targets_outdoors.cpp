@@ -1,0 +1,152 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "target_views.h"
+
+using omr::Target;
+using omr::test::expectFound;
+using omr::test::findTargetsIn;
+
+TEST(Targets, halfInHardShadow)
+{
+  TargetScene scene;
+  scene.shadow = .2;
+  scene.noise = 1;
+  for (const std::string colors : {"RWPGB", "WRWBP"})
+  {
+    scene.colors = colors;
+    expectFound(scene, colors, .2);
+  }
+}
+
+TEST(Targets, tintedAndUnevenLight)
+{
+  TargetScene scene;
+  scene.tint = {.6, .9, 1};
+  scene.gradient = .8;
+  scene.light = .6;
+  expectFound(scene, "RWPGB");
+}
+
+TEST(Targets, partlyHidden)
+{
+  TargetScene scene;
+  scene.occluder = .25;
+  expectFound(scene, "RWPGB", .3);
+}
+
+TEST(Targets, theDisksColourIsThatOfItsSunnySide)
+{
+  // A shadow covers the disk but for its rim.
+  TargetScene scene;
+  scene.shadow = .08;
+  for (const std::string colors : {"WGPBG", "WPGBG", "GWPBG"})
+  {
+    scene.colors = colors;
+    for (const double offset : {-14., 10.})
+    {
+      scene.shadow_offset = offset;
+      expectFound(scene, colors, .2);
+    }
+  }
+}
+
+TEST(Targets, aDiskUnderABarsShadowIsNotBlack)
+{
+  // White in the shade is as dark as black in the sun; the rings around are in the sun, but for the bar's shadow.
+  TargetScene scene;
+  scene.shadow = .08;
+  scene.shadow_offset = -23;
+  scene.shadow_width = 46;
+  for (const std::string colors : {"WPGBG", "WRPBG", "GWPBG"})
+  {
+    scene.colors = colors;
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    EXPECT_TRUE(targets[0].colors[0] == '?' || targets[0].colors[0] == colors[0]) << targets[0].colors;
+    EXPECT_EQ(colors.substr(1), targets[0].colors.substr(1));
+  }
+}
+
+TEST(Targets, aCoveredDiskIsUnknownAndKeepsItsPlace)
+{
+  TargetScene scene;
+  scene.cover_offset = {6, 4};
+  for (const double cover : {28., 46.})
+  {
+    scene.cover = cover;
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
+    EXPECT_EQ('?', targets[0].colors[0]);
+    EXPECT_EQ("GB", targets[0].colors.substr(3)) << targets[0].colors;
+    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
+  }
+}
+
+TEST(Targets, aThingOnTheDiskAndBesideIt)
+{
+  TargetScene scene;
+  scene.cover = 45;
+  for (const cv::Point2d offset : {cv::Point2d(30, 10), cv::Point2d(-50, 40)})
+  {
+    scene.cover_offset = offset;
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size());
+    ASSERT_EQ(5U, targets[0].colors.size());
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+    }
+    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
+  }
+}
+
+TEST(Targets, glossTakesNoRingAndGivesNoWrongLetter)
+{
+  TargetScene scene;
+  scene.gloss = 3;
+  for (const cv::Point2d offset : {cv::Point2d(50, 10), cv::Point2d(25, -25)})
+  {
+    scene.gloss_offset = offset;
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size()) << offset;
+    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors << offset;
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+    }
+  }
+}
+
+TEST(Targets, faintBehindAVeil)
+{
+  TargetScene scene;
+  scene.veil = .75;
+  scene.light = .2;
+  scene.noise = .7;
+  const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+  ASSERT_EQ(1U, targets.size());
+  ASSERT_EQ(5U, targets[0].colors.size());
+  for (std::size_t k = 0; k < 5; ++k)
+  {
+    EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == scene.colors[k]) << targets[0].colors;
+  }
+}
+
+TEST(Targets, archesAreNone)
+{
+  // Half of the rings, as a portal has them.
+  TargetScene scene;
+  scene.colors = "PWPWP";
+  cv::Mat image = renderTarget(scene);
+  cv::rectangle(image, cv::Rect(0, 190, image.cols, image.rows - 190), cv::Scalar::all(200), cv::FILLED);
+  EXPECT_TRUE(findTargetsIn(image).empty());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
