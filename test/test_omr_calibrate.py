@@ -89,6 +89,11 @@ class OmrCalibrate(unittest.TestCase):
         expected = cv2.projectPoints(grid, cv2.Rodrigues(turn)[0], shift, plate.CAMERA, None)[0].reshape(-1, 2)
         np.testing.assert_allclose(np.array([line[1:3] for line in first], float), expected, atol=.3)
 
+    def test_either_side_first(self):
+        turned = run('--checkerboard', '10x7', '--square', '0.02', *self.images)
+        self.assertEqual((0, ''), (turned.returncode, turned.stderr))
+        self.assertEqual(self.calibrate(*self.images).stdout, turned.stdout)
+
     def test_image_without_the_board_is_told_and_left_out(self):
         result = self.calibrate(*self.images[:4], self.empty)
         self.assertEqual(0, result.returncode)
@@ -117,6 +122,8 @@ class OmrCalibrate(unittest.TestCase):
         self.assert_fails('the board was found in 2 of 2 images: three are the least', self.calibrate(*self.images[:2]))
         self.assert_fails('the board was found in 0 of 3 images',
                           run('--checkerboard', '7x9', '--square', '0.02', *self.images[:3]))
+        inner = run('--checkerboard', '6x9', '--square', '0.02', *self.images[:3])
+        self.assert_fails('boards of 7 x 10 squares; --checkerboard counts squares, not inner corners', inner)
         small = self.path('small.png')
         cv2.imwrite(small, cv2.resize(cv2.imread(self.images[0]), (640, 480)))
         self.assert_fails('small.png: the image has 640 x 480 pixels, those before it 960 x 720',

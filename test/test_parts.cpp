@@ -131,6 +131,8 @@ TEST(Parts, fileThatCannotBeRead)
 {
   EXPECT_EQ(messageOf<std::runtime_error>([] { readParts("/nonexistent/parts.yaml"); }),
             "cannot read the file '/nonexistent/parts.yaml'");
+  EXPECT_EQ(messageOf<std::runtime_error>([] { readParts("/tmp"); }),
+            "cannot read the file '/tmp': is it a directory?");
 }
 
 struct Mistake
@@ -145,7 +147,7 @@ TEST(Parts, mistakesAreNamed)
       {"", ":1: expected a map with the key 'parts'"},
       {"parts: [", ":1: not valid yaml"},
       {"- 1", ":1: expected a map with the key 'parts'"},
-      {"part: []", ":1: there is no key 'part': expected one of parts"},
+      {"part: []", ":1: there is no key 'part': expected parts"},
       {"parts:", ":1: the key 'parts' is missing: expected a list of one part or more"},
       {"parts: {}", ":1: parts: expected a list of one part or more"},
       {"parts: []", ":1: parts: expected a list of one part or more"},

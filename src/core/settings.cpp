@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ios>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -239,6 +240,10 @@ void loadSettings(Settings& settings, const std::string& file)
   catch (const YAML::BadFile&)
   {
     throw std::runtime_error("cannot read the settings file '" + file + "'");
+  }
+  catch (const std::ios_base::failure&)  // of a directory, which opens but does not read
+  {
+    throw std::runtime_error("cannot read the settings file '" + file + "': is it a directory?");
   }
   catch (const YAML::Exception& error)
   {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ios>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -23,6 +24,10 @@ YamlFile YamlFile::read(const std::string& file, const Read& read)
   catch (const YAML::BadFile&)
   {
     throw std::runtime_error("cannot read the file '" + file + "'");
+  }
+  catch (const std::ios_base::failure&)  // of a directory, which opens but does not read
+  {
+    throw std::runtime_error("cannot read the file '" + file + "': is it a directory?");
   }
   catch (const YAML::Exception& error)
   {
@@ -84,7 +89,7 @@ void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string
     {
       std::string message = "there is no key '";
       message += key;
-      message += "': expected one of ";
+      message += keys.size() == 1 ? "': expected " : "': expected one of ";
       for (const std::string& known : keys)
       {
         message += known == keys.front() ? "" : ", ";

@@ -9,14 +9,6 @@
 
 namespace omr
 {
-/** How the programs that detect end. */
-enum ExitCode
-{
-  SUCCESS = 0,
-  IMAGE_FAILED = 1,  ///< at least one image could not be read or used; the others were
-  FAILED = 2         ///< wrong arguments, no device, no output
-};
-
 /** The command line of a program that detects: device and tunables. */
 struct DetectorOptions
 {

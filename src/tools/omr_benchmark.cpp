@@ -4,7 +4,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
@@ -16,6 +15,7 @@
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/reference_fill.h"
 #include "peers.h"
+#include "program.h"
 #include "race.h"
 #include "scene.h"
 
@@ -246,18 +246,19 @@ void addPictures(const OurSteps& ours, const Options& options)
   }
 }
 
-int run(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  benchmark::Initialize(&argc, argv);
-  CLI::App app{"Times the fill pipeline, the detector and what others offer for the same job."};
-  Options options;
+  app.description("Times the fill pipeline, the detector and what others offer for the same job.");
   app.add_option("--device", options.device, "OpenCL device: auto, gpu, cpu or a part of its name");
   app.add_option("--threads", options.threads, "Threads of OpenCV and of PoCL's CPU device (default: all cores)");
   app.add_option("--squares", options.squares, "Columns and rows of the boards in the image files, for the peers")
       ->expected(2)
       ->capture_default_str();
   app.add_option("images", options.files, "Image files, each of them scaled to all sizes");
-  CLI11_PARSE(app, argc, argv);
+}
+
+omr::ExitCode run(const Options& options)
+{
   if (options.threads > 0)
   {
     cv::setNumThreads(options.threads);
@@ -281,19 +282,12 @@ int run(int argc, char** argv)
   addPaper(ours);
   addCameras(options.device);
   benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  return omr::SUCCESS;
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return run(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_benchmark: " << error.what() << "\n";
-    return 2;
-  }
+  benchmark::Initialize(&argc, argv);
+  return omr::runProgram<Options>("omr_benchmark", argc, argv, declare, run);
 }

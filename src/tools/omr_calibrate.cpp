@@ -1,15 +1,16 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <deque>
 #include <iomanip>
 #include <iostream>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "calibration.h"
 #include "detector_options.h"
 #include "image_files.h"
 #include "outdoor_omr/detector.h"
+#include "program.h"
 #include "sheet.h"
 
 namespace
@@ -32,6 +33,7 @@ struct Session
   cv::Size size;                         // of the images
   std::deque<omr::Checkerboard> boards;  // views point into it
   std::vector<omr::CalibrationView> views;
+  std::set<std::string> other_sizes;  // of boards that are not the one looked for
 };
 
 long countSeen(const omr::Checkerboard& board)
@@ -70,6 +72,10 @@ void addView(const std::string& name, const cv::Size& squares, const omr::Settin
       session.boards.push_back(board);
       view.board = &session.boards.back();
     }
+    if (board.rows != squares.height || board.cols != squares.width)
+    {
+      session.other_sizes.insert(words({board.rows, board.cols}));
+    }
   }
   session.views.push_back(view);
 }
@@ -103,7 +109,8 @@ omr::ExitCode calibrateAll(const Options& options)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
   const omr::Settings settings = options.detector.settings();
-  const cv::Size squares = omr::parseCheckerboard(options.checkerboard);
+  cv::Size squares = omr::parseCheckerboard(options.checkerboard);
+  squares = {std::max(squares.width, squares.height), std::min(squares.width, squares.height)};
   omr::Detector detector(options.detector.device);
   Session session;
   omr::ExitCode result = omr::SUCCESS;
@@ -118,6 +125,16 @@ omr::ExitCode calibrateAll(const Options& options)
       std::cerr << "omr_calibrate: " << name << ": " << error.what() << std::endl;
       result = omr::IMAGE_FAILED;
     }
+  }
+  if (session.boards.empty() && !session.other_sizes.empty())
+  {
+    std::string sizes;
+    for (const std::string& size : session.other_sizes)
+    {
+      sizes += (sizes.empty() ? "" : ", ") + size;
+    }
+    std::cerr << "omr_calibrate: note: there are boards of " << sizes << " squares; --checkerboard counts squares, not "
+              << "inner corners\n";
   }
   if (!options.mrcal.empty())
   {
@@ -134,10 +151,9 @@ omr::ExitCode calibrateAll(const Options& options)
   return result;
 }
 
-int parseAndRun(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  Options options;
-  CLI::App app(
+  app.description(
       "Calibrates a camera from images of a printed checkerboard; docs/calibration.md tells how to take them.");
   app.add_option("--checkerboard", options.checkerboard, "ROWSxCOLS squares, as 7x10")->required();
   app.add_option("--square", options.square, "side of a square [m]")->required()->check(CLI::Range(0.001, 1.0));
@@ -148,27 +164,10 @@ int parseAndRun(int argc, char** argv)
   options.detector.addTo(app);
   app.add_option("images", options.images, "image files")->required();
   app.footer("Exit code: 0; 1 when an image could not be used; 2 when there is no calibration.");
-  try
-  {
-    app.parse(argc, argv);
-    return calibrateAll(options);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
-  }
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return parseAndRun(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_calibrate: " << error.what() << "\n";
-    return omr::FAILED;
-  }
+  return omr::runProgram<Options>("omr_calibrate", argc, argv, declare, calibrateAll);
 }

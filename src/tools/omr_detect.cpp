@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/overlay.h"
 #include "parameter_table.h"
+#include "program.h"
 
 namespace
 {
@@ -212,10 +212,9 @@ omr::ExitCode run(const Options& options)
   return detectAll(options);
 }
 
-int parseAndRun(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  Options options;
-  CLI::App app("Finds checkerboards and targets of concentric colour rings in images.");
+  app.description("Finds checkerboards and targets of concentric colour rings in images.");
   options.detector.addTo(app);
   app.add_option("--overlay", options.overlay, "folder for pictures with the markers drawn");
   app.add_option("--json", options.json, "file for one JSON object an image, - for standard output");
@@ -224,33 +223,16 @@ int parseAndRun(int argc, char** argv)
   auto* parameters = app.add_flag("--list-parameters", options.list_parameters, "prints all parameters and ends");
   app.add_option("images", options.images, "image files");
   app.footer("Exit code: 0; 1 when an image could not be read; 2 when nothing could be done.");
-  app.callback([&] {
+  app.callback([&options, devices, parameters] {
     if (options.images.empty() && devices->count() + parameters->count() == 0)
     {
       throw CLI::RequiredError("images");
     }
   });
-  try
-  {
-    app.parse(argc, argv);
-    return run(options);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
-  }
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return parseAndRun(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_detect: " << error.what() << "\n";
-    return omr::FAILED;
-  }
+  return omr::runProgram<Options>("omr_detect", argc, argv, declare, run);
 }

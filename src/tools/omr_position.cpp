@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -10,6 +9,7 @@
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/locate.h"
 #include "parts_json.h"
+#include "program.h"
 
 namespace
 {
@@ -112,10 +112,9 @@ omr::ExitCode locateAll(const Options& options)
   return result;
 }
 
-int parseAndRun(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  Options options;
-  CLI::App app("Finds the parts of a parts file in images of a calibrated camera and says where they are.");
+  app.description("Finds the parts of a parts file in images of a calibrated camera and says where they are.");
   app.add_option("--camera", options.camera, "yaml file of camera_calibration or camera_info_manager")->required();
   app.add_option("--parts", options.parts, "yaml file of parts and their markers, as config/parts.yaml")->required();
   app.add_flag("--rectified", options.rectified, "the images are rectified: use P, not K and D");
@@ -125,27 +124,10 @@ int parseAndRun(int argc, char** argv)
   app.footer(
       "Exit code: 0; 1 when an image could not be read or has another size than the calibration; 2 when nothing "
       "could be done.");
-  try
-  {
-    app.parse(argc, argv);
-    return locateAll(options);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? omr::SUCCESS : omr::FAILED;
-  }
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return parseAndRun(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_position: " << error.what() << "\n";
-    return omr::FAILED;
-  }
+  return omr::runProgram<Options>("omr_position", argc, argv, declare, locateAll);
 }

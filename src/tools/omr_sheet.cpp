@@ -1,20 +1,14 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "program.h"
 #include "sheet.h"
 #include "sheet_writers.h"
 
 namespace
 {
-enum ExitCode
-{
-  SUCCESS = 0,
-  FAILED = 2
-};
-
 struct Options
 {
   std::vector<std::string> checkerboards;
@@ -56,7 +50,7 @@ void writeFile(const std::string& name, const std::string& bytes)
   }
 }
 
-void run(Options options)
+omr::ExitCode run(Options options)
 {
   for (const std::string& text : options.checkerboards)
   {
@@ -76,12 +70,12 @@ void run(Options options)
   {
     std::cerr << "omr_sheet: note: " << advice << "\n";
   }
+  return omr::SUCCESS;
 }
 
-int parseAndRun(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  Options options;
-  CLI::App app("Draws checkerboards and targets at true scale, to be printed.");
+  app.description("Draws checkerboards and targets at true scale, to be printed.");
   app.add_option("--checkerboard", options.checkerboards, "ROWSxCOLS squares, 5x7 to 21x21; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--square", options.content.square, "side of a square [mm]")->capture_default_str();
@@ -95,28 +89,10 @@ int parseAndRun(int argc, char** argv)
   app.add_flag("--landscape", options.landscape, "turns the page by 90 degrees");
   app.add_option("--dpi", options.dpi, "resolution of a PNG")->capture_default_str();
   app.add_option("files", options.files, "files to write: .svg, .pdf or .png")->required();
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? SUCCESS : FAILED;
-  }
-  run(options);
-  return SUCCESS;
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return parseAndRun(argc, argv);
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_sheet: " << error.what() << "\n";
-    return FAILED;
-  }
+  return omr::runProgram<Options>("omr_sheet", argc, argv, declare, run);
 }

@@ -54,7 +54,7 @@ TEST_F(BadParameters, ofThePosition)
   ros::param::set("/position/parts", "/nonexistent.yaml");
   expectRefused("position", "cannot read the file '/nonexistent.yaml'");
   ros::param::set("/position/parts", FILES + "cell_goals.yaml");
-  expectRefused("position", "there is no key 'goals': expected one of parts");
+  expectRefused("position", "there is no key 'goals': expected parts");
   ros::param::set("/position/parts", FILES + "position_parts.yaml");
   ros::param::set("/position/image_kind", "colour");
   expectRefused("position", "parameter ~image_kind: expected raw or rectified, not 'colour'");
@@ -88,7 +88,7 @@ TEST_F(BadParameters, ofTheDeviation)
 {
   expectRefused("deviation", "parameter ~goals: expected the path of a goals file");
   ros::param::set("/deviation/goals", FILES + "position_parts.yaml");
-  expectRefused("deviation", "there is no key 'parts': expected one of goals");
+  expectRefused("deviation", "there is no key 'parts': expected goals");
   ros::param::set("/deviation/goals", FILES + "cell_goals.yaml");
   ros::param::set("/deviation/tf_timeout", 60);
   expectRefused("deviation", "parameter ~tf_timeout: expected a number of 0 to");
