@@ -245,6 +245,25 @@ TEST_P(DeviceFillTest, runsAndChannelSumsOfAVeryWideImage)
   checkImage(white, Filter::none, 3, {100});
 }
 
+TEST_P(DeviceFillTest, withoutMeasuresPlaceAndShapeAreTheSame)
+{
+  const cv::Mat image = omr::drawScene({640, 480});
+  const cv::Mat edges = omr::edgeMask(image, {100});
+  std::vector<RegionSums> expected = omr::sumRegions(image, edges, omr::labelRegions(edges));
+  for (RegionSums& region : expected)
+  {
+    region.blue = region.green = region.red = region.distance = region.perimeter = 0;
+  }
+  std::vector<RegionSums> sums;
+  fill_->loadImage(image);
+  fill_->findEdges({100});
+  fill_->labelRegions(FillMethod::runs, 0);
+  fill_->sumRegions(AreaWindow(), false);
+  fill_->readSums(sums);
+  fill_->finish();
+  expectSameSums(expected, sums);
+}
+
 TEST_P(DeviceFillTest, moreRegionsThanTheBuffersHold)
 {
   cv::Mat edges(1000, 1000, CV_8UC1);

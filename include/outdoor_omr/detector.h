@@ -32,7 +32,10 @@ class Detector
    */
   Markers detect(const cv::Mat& bgr, const Settings& settings);
 
-  /** The regions of the last image; edges and labels are there if Settings::overlay_regions asked for them. */
+  /**
+   * The regions of the last image, their place and shape: Outputs::measures is off. Edges and labels are there if
+   * Settings::overlay_regions asked for them.
+   */
   const RegionMap& regions() const;
 
   const FillPipeline& pipeline() const;

@@ -31,9 +31,11 @@ class DeviceError : public std::runtime_error
 class FillPipeline
 {
  public:
-  /** What run() shall bring back beside the region data; each costs a transfer. */
+  /** What run() shall bring back beside place and shape of the regions; each costs time. */
   struct Outputs
   {
+    /** Region::color, perimeter, mean_distance and distance_deviation, which mean nothing without. */
+    bool measures = true;
     bool edges = false;                      ///< RegionMap::edges
     bool labels = false;                     ///< RegionMap::labels
     const MarkerNetwork* network = nullptr;  ///< if not null, the preliminary detection runs too (section 4.5)

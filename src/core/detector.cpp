@@ -89,6 +89,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   const bool candidates = settings.candidate_mode != CandidateMode::none;
   std::vector<StepTime> times;
   FillPipeline::Outputs outputs;
+  outputs.measures = false;  // no marker needs them: the whole frame takes 5 % less
   outputs.edges = outputs.labels = settings.overlay_regions;
   outputs.network = candidates ? &network_ : nullptr;
   outputs.window_scores = &window_scores_;
@@ -98,9 +99,11 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     StopWatch watch(times);
     markers.candidates = findCandidates(bgr.size(), window_scores_, network_);
     markRead(markers.candidates, markers.checkerboards, markers.targets);
+    FillPipeline::Outputs of_enlarged;
+    of_enlarged.measures = false;
     const auto detect = [&](const cv::Mat& enlarged) {
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
-      return findMarkers(enlarged, settings, {}, enlarged_regions_, own_times);
+      return findMarkers(enlarged, settings, of_enlarged, enlarged_regions_, own_times);
     };
     lookAgain(bgr, settings.candidate_looks, detect, markers);
     watch.step("second look");

@@ -80,8 +80,12 @@ class DeviceFill
   /** Brings the labels (CV_32SC1) to the host by the time of finish(). */
   void readLabels(cv::Mat& labels);
 
-  /** Sums the region data; distances only for the regions in the window. */
-  void sumRegions(const AreaWindow& window);
+  /**
+   * Sums the region data; distances only for the regions in the window.
+   *
+   * @param measures false: colours, perimeter and distance are left at 0.
+   */
+  void sumRegions(const AreaWindow& window, bool measures = true);
 
   /**
    * Reads the sums of the regions in the window, ascending label; waits. When the image has more regions than the
@@ -142,6 +146,7 @@ class DeviceFill
   cv::Size size_;
   Strips strips_;
   AreaWindow window_;
+  bool measures_ = true;
   cl_uint expected_reports_ = 64;
   cl::Event last_event_, loaded_, scored_, filtered_, edges_found_, labelled_;
 };

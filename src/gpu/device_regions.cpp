@@ -104,24 +104,29 @@ void DeviceFill::findRegions()
   labelled_ = last_event_;
 }
 
-void DeviceFill::sumRegions(const AreaWindow& window)
+void DeviceFill::sumRegions(const AreaWindow& window, bool measures)
 {
   window_ = window;
+  measures_ = measures;
+  const cl_int with_measures = measures ? 1 : 0;
   if (strips_.united)
   {
-    launch("sumStrip", strips(), image_, step_, *buffers_.mask, size_.width, size_.height, strips_.rows, *buffers_.runs,
-           *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record, *buffers_.scratch,
-           *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
+    launch("sumStrip", strips(), image_, step_, *buffers_.mask, size_.width, size_.height, strips_.rows, with_measures,
+           *buffers_.runs, *buffers_.row_first, *buffers_.row_runs, *buffers_.run_slot, *buffers_.slot_record,
+           *buffers_.scratch, *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
     launch("reduceRecords", strips(), size_.width, strips_.rows, *buffers_.strip_slots, *buffers_.parent,
            *buffers_.slot_record, *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
   }
   else
   {
-    launch("sumWord", words(size_.height), image_, step_, *buffers_.mask, size_.width, size_.height, *buffers_.runs,
-           *buffers_.row_first, *buffers_.rank, *buffers_.parent, *buffers_.slot_record, *buffers_.records,
-           buffers_.recordCapacity(), *buffers_.counters);
+    launch("sumWord", words(size_.height), image_, step_, *buffers_.mask, size_.width, size_.height, with_measures,
+           *buffers_.runs, *buffers_.row_first, *buffers_.rank, *buffers_.parent, *buffers_.slot_record,
+           *buffers_.records, buffers_.recordCapacity(), *buffers_.counters);
   }
-  sumDistances();
+  if (measures)
+  {
+    sumDistances();
+  }
   reportRegions();
 }
 
@@ -167,7 +172,7 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
     {
       buffers_.growRecords(context_, counters.records);
       findRegions();
-      sumRegions(window_);
+      sumRegions(window_, measures_);
     }
     else if (counters.reported > buffers_.reportedCapacity())
     {

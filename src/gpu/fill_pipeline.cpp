@@ -160,7 +160,7 @@ class FillPipeline::Implementation
       fill_->findEdges(edgeThreshold(settings));
       fill_->labelRegions(settings.fill_method, settings.sweep_rounds);
       readOutputs(outputs, map);
-      fill_->sumRegions(areaWindow(settings, bgr));
+      fill_->sumRegions(areaWindow(settings, bgr), outputs.measures);
       map.region_count = fill_->readSums(sums_);
       fill_->finish();
       times = fill_->times();
