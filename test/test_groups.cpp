@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outdoor_omr/checkerboards.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/groups.h"
 #include "outdoor_omr/settings.h"
@@ -46,6 +47,19 @@ TEST(Groups, pairsOfSquaresGiveTheLatticeBetweenThem)
   EXPECT_LT(distance_to_node(seeds[0].frame.at(1, 0)), 0.25);
   EXPECT_LT(distance_to_node(seeds[0].frame.at(0, 1)), 0.25);
   EXPECT_GT(omr::cross(seeds[0].frame.u, seeds[0].frame.v), 0);
+}
+
+TEST(Groups, boardsOfPairsComeFirstThoseOfSaddlePointsLater)
+{
+  Render render({400, 300});
+  render.addBoard(5, 7, omr::test::boardHomography(5, 7, {200, 150}, 25, 20, 30));
+  const cv::Mat picture = render.picture();
+  const Frame frame = omr::makeFrame(picture);
+  std::vector<std::size_t> first;
+  const auto use_first = [&](const std::vector<omr::Checkerboard>& boards) { first.push_back(boards.size()); };
+  EXPECT_EQ(1U, omr::findCheckerboards(frame, regionsOf(picture), Settings(), use_first).size());
+  EXPECT_EQ(1U, omr::findCheckerboards(frame, RegionMap(), Settings(), use_first).size());
+  EXPECT_EQ((std::vector<std::size_t>{1, 0}), first);
 }
 
 TEST(Groups, singleSquaresAndEmptyMapsGiveNothing)

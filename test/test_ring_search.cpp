@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/reference_fill.h"
@@ -54,6 +55,16 @@ TEST(RingSearch, clutterTakesNoMoreThanTheAllowedLooks)
   EXPECT_TRUE(omr::findRingCandidates(map, image, regions, {}, {}, 3).empty());
   EXPECT_GT(map.looks(), .5 * omr::allowedLooks(image.size()));
   EXPECT_LT(map.looks(), omr::allowedLooks(image.size()) + ONE_GROWTH);
+}
+
+TEST(RingSearch, endsSoonWhenItIsInVain)
+{
+  const cv::Mat image = clutter({1600, 1200});
+  const omr::RegionMap regions = regionsOf(image);
+  omr::EdgelMap map(image);
+  const std::atomic<bool> is_vain(true);
+  omr::findRingCandidates(map, image, regions, {}, {}, 3, &is_vain);
+  EXPECT_LT(map.looks(), .5 * omr::allowedLooks(image.size()));  // those of the families, which come before
 }
 
 TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)

@@ -189,6 +189,41 @@ TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
   }
 }
 
+TEST(Targets, areThoseBesideTheBoardsThatThereAreWhicheverWereExpected)
+{
+  TargetScene scene;
+  scene.homography = tiltedView({240, 180}, .5, .4, 1, 900);
+  const cv::Mat image = renderTarget(scene);
+  const omr::RegionMap regions = targetRegions(image, Settings());
+  omr::Checkerboard everywhere;
+  const auto right = static_cast<float>(image.cols);
+  const auto bottom = static_cast<float>(image.rows);
+  everywhere.corners = {cv::Point2f(0, 0), cv::Point2f(right, 0), cv::Point2f(right, bottom), cv::Point2f(0, bottom)};
+  const std::vector<std::vector<omr::Checkerboard>> both = {{}, {everywhere}};
+  for (const auto& expected : both)
+  {
+    for (const auto& boards : both)
+    {
+      omr::TargetSearch search(image, Settings());
+      search.lookAtRegions(regions);
+      search.expect(expected);
+      search.lookAtRest(regions);
+      EXPECT_EQ(boards.empty() ? 1U : 0U, search.finish(regions, boards).size());
+    }
+  }
+}
+
+TEST(Targets, lookingInVainIsNoHarm)
+{
+  const cv::Mat image = renderTarget(TargetScene());
+  const omr::RegionMap regions = targetRegions(image, Settings());
+  omr::TargetSearch search(image, Settings());
+  search.expect({omr::Checkerboard()});
+  search.confirm({});
+  search.lookAtRest(regions);
+  EXPECT_EQ(1U, search.finish(regions, {}).size());
+}
+
 TEST(Targets, lookingAheadAtWhatIsNoColourImageDoesNothing)
 {
   for (const cv::Mat& image : {cv::Mat(), cv::Mat(40, 40, CV_8UC1, cv::Scalar::all(9))})
@@ -196,6 +231,7 @@ TEST(Targets, lookingAheadAtWhatIsNoColourImageDoesNothing)
     omr::TargetSearch search(image, Settings());
     search.lookAtImage();
     search.lookAtRegions({});
+    search.lookAtRest({});
     EXPECT_TRUE(search.finish({}, {}).empty());
   }
 }

@@ -39,6 +39,16 @@ class TargetSearch
   /** Grows the regions that promise most; likewise. */
   void lookAtRegions(const RegionMap& regions);
 
+  /** Names the boards that there seem to be. */
+  void expect(const std::vector<Checkerboard>& boards);
+
+  /** After expect(): finds all targets; likewise. */
+  void lookAtRest(const RegionMap& regions);
+
+  /** Names the boards that there are; may be called beside lookAtRest(), which soon ends if other ones were expected.
+   */
+  void confirm(const std::vector<Checkerboard>& boards);
+
   /** What findTargets() gives. */
   std::vector<Target> finish(const RegionMap& regions, const std::vector<Checkerboard>& boards);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "outdoor_omr/border.h"
 #include "outdoor_omr/checkerboard_order.h"
@@ -52,6 +53,7 @@ struct Candidate
   Lattice lattice;
   std::array<SideEvidence, 4> sides;
   std::vector<cv::Point2f> outline;
+  std::optional<Checkerboard> finished;
 };
 
 void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
@@ -205,19 +207,20 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
       noteFailure(lattice, 2, map);
       continue;
     }
-    Candidate candidate{lattice, sides, boardOutline(lattice)};
+    Candidate candidate{lattice, sides, boardOutline(lattice), {}};
     map.close(candidate.outline);
     looker.setLooksLeft(looks);  // only looks in vain count
     addCandidate(std::move(candidate), candidates);
   }
 }
 
-Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& regions)
+Checkerboard finish(const Candidate& candidate, const Frame& frame, const RegionMap& regions)
 {
-  const std::vector<bool> seen = refineCorners(frame, candidate.lattice);
-  Checkerboard board = orderCheckerboard(candidate.lattice, seen);
+  Lattice lattice = candidate.lattice;  // of the search, which may go on with it
+  const std::vector<bool> seen = refineCorners(frame, lattice);
+  Checkerboard board = orderCheckerboard(lattice, seen);
   const Regularity regularity =
-      checkRegularity(squareCorners(candidate.lattice), board.rows, board.cols, regions, frame.grey.front());
+      checkRegularity(squareCorners(lattice), board.rows, board.cols, regions, frame.grey.front());
   board.regularity = regularity.share;
   board.squares_seen = regularity.seen;
   const cv::Rect2f picture(0, 0, static_cast<float>(frame.raw_grey.cols - 1),
@@ -230,9 +233,30 @@ Checkerboard finish(Candidate& candidate, const Frame& frame, const RegionMap& r
                                   std::count(sides.begin(), sides.end(), SideEvidence::bare) == 4);
   return board;
 }
+
+std::vector<Checkerboard> finishAll(std::vector<Candidate>& candidates, const Frame& frame, const RegionMap& regions)
+{
+  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      if (!candidates[i].finished)
+      {
+        candidates[i].finished = finish(candidates[i], frame, regions);
+      }
+    }
+  });
+  std::vector<Checkerboard> boards;
+  boards.reserve(candidates.size());
+  for (const Candidate& candidate : candidates)
+  {
+    boards.push_back(*candidate.finished);
+  }
+  return boards;
+}
 }  // namespace
 
-std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings)
+std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings,
+                                            const std::function<void(const std::vector<Checkerboard>&)>& use_first)
 {
   constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
   SearchMap map(frame.raw_grey.size());
@@ -242,20 +266,17 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
     findBoards(seeds, looker, map, candidates);
   };
   search(pairNeighbours(frame, regions));
+  if (use_first)
+  {
+    use_first(finishAll(candidates, frame, regions));
+  }
   const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
   for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
   {
     const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
     search(groupSaddlePoints(frame, level, faint, map));
   }
-  std::vector<Checkerboard> boards(candidates.size());
-  cv::parallel_for_(cv::Range(0, static_cast<int>(boards.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i)
-    {
-      boards[i] = finish(candidates[i], frame, regions);
-    }
-  });
-  return boards;
+  return finishAll(candidates, frame, regions);
 }
 
 }  // namespace omr

@@ -62,17 +62,29 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   watch.step("pyramid");
   Markers markers;
   std::future<void> look;
+  std::promise<void> boards_expected;  // is destroyed before the look, which would wait for it
   if (settings.detect_targets)
   {
-    look = std::async([&] {
+    look = std::async([&, expected = boards_expected.get_future()]() mutable {
       image_look.get();
       targets.lookAtRegions(regions);
+      expected.get();
+      targets.lookAtRest(regions);
     });
   }
+  const auto expect = [&](const std::vector<Checkerboard>& boards) {
+    targets.expect(boards);
+    boards_expected.set_value();
+  };
   if (settings.detect_checkerboards)
   {
-    markers.checkerboards = findCheckerboards(frame, regions, settings);
+    markers.checkerboards = findCheckerboards(frame, regions, settings, expect);
+    targets.confirm(markers.checkerboards);
     watch.step("checkerboards");
+  }
+  else
+  {
+    expect({});
   }
   if (settings.detect_targets)
   {

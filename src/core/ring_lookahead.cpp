@@ -15,8 +15,7 @@ constexpr double FAMILIES_SHARE = .4;
 
 void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
 {
-  grown.is_target =
-      growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate) && isTarget(grown.candidate, min_rings);
+  grown.settle(growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate), min_rings);
 }
 
 void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds)
@@ -46,8 +45,7 @@ void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundS
     for (int i = range.start; i < range.end; ++i)
     {
       GrownSeed& grown = seeds.families[i];
-      grown.is_target = growCandidate(grown.map, bgr, families[i].family, families[i].radii, grown.candidate) &&
-                        isTarget(grown.candidate, min_rings);
+      grown.settle(growCandidate(grown.map, bgr, families[i].family, families[i].radii, grown.candidate), min_rings);
     }
   });
   seeds.has_families = true;

@@ -21,6 +21,16 @@ struct GrownSeed
   {
   }
 
+  /** Of a candidate that is no target nothing is kept: seeds are copied. */
+  void settle(bool is_grown, int min_rings)
+  {
+    is_target = is_grown && isTarget(candidate, min_rings);
+    if (!is_target)
+    {
+      candidate = RingCandidate();
+    }
+  }
+
   bool is_target = false;
   RingCandidate candidate;
   EdgelMap map;  ///< a fork, which knows the looks that it took

@@ -35,8 +35,9 @@ struct ArcSeed
 class Search
 {
  public:
-  Search(EdgelMap& map, const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings)
-      : map_(map), bgr_(bgr), boards_(boards), min_rings_(min_rings)
+  Search(EdgelMap& map, const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings,
+         const std::atomic<bool>* is_vain)
+      : map_(map), bgr_(bgr), boards_(boards), min_rings_(min_rings), is_vain_(is_vain)
   {
   }
 
@@ -112,7 +113,7 @@ class Search
     cv::parallel_for_(cv::Range(0, static_cast<int>(pieces.size())), [&](const cv::Range& range) {
       for (int i = range.start; i < range.end; ++i)
       {
-        found[i].is_found = findArcSeed(forks[i], *pieces[i], found[i].seed, found[i].votes);
+        found[i].is_found = !isVain() && findArcSeed(forks[i], *pieces[i], found[i].seed, found[i].votes);
       }
     });
     for (const EdgelMap& fork : forks)
@@ -145,6 +146,11 @@ class Search
     GrownSeed grown;
   };
 
+  bool isVain() const
+  {
+    return is_vain_ != nullptr && *is_vain_;
+  }
+
   bool isTaken(const cv::Point2d& point) const
   {
     return isOnBoard(point, boards_) || isInUndisputed(candidates_, point);
@@ -159,7 +165,7 @@ class Search
     {
       growWaiting();
     }
-    return !map_.isSpent() && !isTaken(seed.family.center);
+    return !map_.isSpent() && !isVain() && !isTaken(seed.family.center);
   }
 
   void add(Growth growth)
@@ -201,6 +207,7 @@ class Search
   const cv::Mat& bgr_;
   const std::vector<Checkerboard>& boards_;
   int min_rings_;
+  const std::atomic<bool>* is_vain_;
   std::vector<RingCandidate> candidates_;
   std::vector<Growth> waiting_;
 };
@@ -217,11 +224,12 @@ std::size_t sharedLooks(const cv::Size& image_size, double share)
 }
 
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
-                                              RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings)
+                                              RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings,
+                                              const std::atomic<bool>* is_vain)
 {
   growFamilies(map, bgr, min_rings, seeds);
   addRoundSeeds(regions, seeds);
-  Search search(map, bgr, boards, min_rings);
+  Search search(map, bgr, boards, min_rings, is_vain);
   search.tryFamilies(seeds.families);
   search.allow(CONCENTRIC_SHARE);
   search.tryRound(seeds, true);

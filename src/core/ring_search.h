@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_RING_SEARCH_H
 #define OUTDOOR_OMR_CORE_RING_SEARCH_H
 
+#include <atomic>
 #include <vector>
 
 #include "edgels.h"
@@ -25,10 +26,12 @@ std::size_t sharedLooks(const cv::Size& image_size, double share);
  * @param seeds     what is found and grown already; the rest is done here.
  * @param boards    what lies on them is no target.
  * @param min_rings of a target.
+ * @param is_vain   if given and set meanwhile, the search ends soon; what it found is of no use then.
  * @return          what isTarget(), the best of each place.
  */
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
-                                              RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings);
+                                              RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings,
+                                              const std::atomic<bool>* is_vain = nullptr);
 
 }  // namespace omr
 

@@ -1,7 +1,9 @@
 #include "outdoor_omr/targets.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "color_key.h"
@@ -115,6 +117,34 @@ bool toTarget(RingCandidate candidate, int min_rings, Target& target)
   }
   return isReadable(target, candidate, min_rings);
 }
+
+std::vector<Target> readTargets(std::vector<RingCandidate> candidates, int min_rings)
+{
+  std::vector<Target> read(candidates.size());
+  std::vector<char> is_target(candidates.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      is_target[i] = toTarget(std::move(candidates[i]), min_rings, read[i]) ? 1 : 0;
+    }
+  });
+  std::vector<Target> targets;
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    if (is_target[i] != 0)
+    {
+      targets.push_back(std::move(read[i]));
+    }
+  }
+  return targets;
+}
+
+/** Whether the boards lie in the same places, in the same order. */
+bool haveSameCorners(const std::vector<Checkerboard>& boards, const std::vector<Checkerboard>& others)
+{
+  return std::equal(boards.begin(), boards.end(), others.begin(), others.end(),
+                    [](const Checkerboard& a, const Checkerboard& b) { return a.corners == b.corners; });
+}
 }  // namespace
 
 struct TargetSearch::State
@@ -137,6 +167,9 @@ struct TargetSearch::State
   int min_rings;
   std::unique_ptr<EdgelMap> map;
   RoundSeeds seeds;
+  std::vector<Checkerboard> expected;
+  std::atomic<bool> is_vain{false};  // what is searched with them
+  std::optional<std::vector<Target>> targets;
 };
 
 TargetSearch::TargetSearch(const cv::Mat& bgr, const Settings& settings)
@@ -163,31 +196,40 @@ void TargetSearch::lookAtRegions(const RegionMap& regions)
   }
 }
 
+void TargetSearch::expect(const std::vector<Checkerboard>& boards)
+{
+  state_->expected = boards;
+}
+
+void TargetSearch::lookAtRest(const RegionMap& regions)
+{
+  if (state_->prepare())
+  {
+    EdgelMap map = *state_->map;
+    state_->targets = readTargets(findRingCandidates(map, state_->bgr, regions, state_->seeds, state_->expected,
+                                                     state_->min_rings, &state_->is_vain),
+                                  state_->min_rings);
+  }
+}
+
+void TargetSearch::confirm(const std::vector<Checkerboard>& boards)
+{
+  state_->is_vain = !haveSameCorners(boards, state_->expected);
+}
+
 std::vector<Target> TargetSearch::finish(const RegionMap& regions, const std::vector<Checkerboard>& boards)
 {
-  std::vector<Target> targets;
   if (!state_->prepare())
   {
-    return targets;
+    return {};
   }
-  std::vector<RingCandidate> candidates =
-      findRingCandidates(*state_->map, state_->bgr, regions, std::move(state_->seeds), boards, state_->min_rings);
-  std::vector<Target> read(candidates.size());
-  std::vector<char> is_target(candidates.size());
-  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i)
-    {
-      is_target[i] = toTarget(std::move(candidates[i]), state_->min_rings, read[i]) ? 1 : 0;
-    }
-  });
-  for (std::size_t i = 0; i < read.size(); ++i)
+  if (state_->targets && !state_->is_vain && haveSameCorners(boards, state_->expected))
   {
-    if (is_target[i] != 0)
-    {
-      targets.push_back(std::move(read[i]));
-    }
+    return std::move(*state_->targets);
   }
-  return targets;
+  return readTargets(
+      findRingCandidates(*state_->map, state_->bgr, regions, std::move(state_->seeds), boards, state_->min_rings),
+      state_->min_rings);
 }
 
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
