@@ -4,7 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "outdoor_omr/border.h"
+#include "board_judgement.h"
+#include "edge_reading.h"
 #include "outdoor_omr/checkerboard_order.h"
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/corners.h"
@@ -22,30 +23,10 @@ namespace omr
 {
 namespace
 {
-// Paper, section 3.4: 5x7 to 21x21 squares; inner corners are one less.
-constexpr int MIN_SHORT_SIDE = 4;
-constexpr int MIN_LONG_SIDE = 6;
-constexpr int MAX_SIDE = 20;
 constexpr int MAX_OVERGROWTH = 4;  // lines of false corners in the margin under the shadow of a fence; trimmed later
-constexpr float MIN_FILL = 0.35F;
-// Evidence::doubt() of boards is below 1.2 (99 %), of lattices in clutter above 2.4 (95 %).
-constexpr float MAX_DOUBT = 2.3F;
-constexpr float MAX_BORDERED_DOUBT = 3.5F;  // with a border on all four sides, which clutter does not have
-// Gratings and grids of vents alternate as well, but they have no border and blurred corners.
-constexpr float BORDERLESS_CORRELATION = 0.98F;
-// Nor are they whole: this many corners without gaps are a board whose border the shadow of a fence hides.
-constexpr int BORDERLESS_CORNERS = 40;
-constexpr float BORDERLESS_FILL = 0.9F;
-// A tiling of round pieces (Truchet) that is cut by the picture all around has all corners, but not on even lines:
-// 0.161, where 95 % of the boards are below 0.063. Scaled and cropped photographs without a board: 1 -> 0 boards on
-// 1936. Asked of every board without a border it costs 3 of 1641 under shadows, whose ends the picture shows.
-constexpr float MAX_CUT_UNEVENNESS = 0.1F;
 constexpr float MAX_GROWING_DOUBT = 2.6F;
 constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
 constexpr int MIN_CORNERS = 6;           // within reach of one another, or it is no lattice
-constexpr float SMALL_SQUARE = 5;        // px; below it nearly all corners must be found
-constexpr float SMALL_SQUARE_FILL = 0.85F;
-constexpr float MIN_SQUARE = 2;  // px; finer patterns are the sampling's own
 constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
 
 struct Candidate
@@ -72,8 +53,15 @@ void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
   }
 }
 
-/** Grows a lattice from the seed, giving up as early as clutter shows. @return false if it is none. */
-bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
+enum class Growth
+{
+  none,      // too few corners
+  doubtful,  // given up
+  grown
+};
+
+/** Grows a lattice from the seed, giving up as early as clutter shows. @return what it is. */
+Growth growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
 {
   CornerQuery query;
   query.tolerance = 0.3F;
@@ -82,7 +70,7 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
   if (!corner.found)
   {
     map.addFailure(seed.frame.node, squareHeight(seed.frame));
-    return false;
+    return Growth::none;
   }
   lattice.start(seed.frame, corner);
   // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
@@ -92,7 +80,7 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
     if (lattice.count() < MIN_CORNERS)
     {
       map.addFailure(seed.frame.node, squareHeight(seed.frame));
-      return false;
+      return Growth::none;
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
@@ -100,49 +88,41 @@ bool growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Sear
         std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + MAX_OVERGROWTH)
     {
       noteFailure(lattice, 1, map);
-      return false;
+      return Growth::doubtful;
     }
     if (lattice.count() < count)
     {
       break;
     }
   }
+  return Growth::grown;
+}
+
+/** Settles a grown lattice by its corners. @param sides receive what is seen of its sides. */
+bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std::array<SideEvidence, 4>& sides)
+{
+  if (!mayBePart(lattice, looker))
+  {
+    noteFailure(lattice, 1, map);
+    return false;
+  }
+  jumpGaps(lattice, looker);
+  fillHoles(lattice, looker);
+  splitAtBorders(lattice, looker.frame());
+  dropOutliers(lattice);
+  sides = settleExtent(lattice, looker);
+  if (!isBoard(lattice, sides))
+  {
+    noteFailure(lattice, 2, map);
+    return false;
+  }
   return true;
 }
 
-/** Whether the corners alone speak for a board, with no border seen. */
-bool isClear(const Lattice& lattice, const Evidence& evidence)
+/** The same by the edges of its squares, which say what corners do not under hard shadows. */
+bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence, 4>& sides)
 {
-  return evidence.correlation >= BORDERLESS_CORRELATION ||
-         (lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL);
-}
-
-/** Whether it is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
-bool mayBePart(const Lattice& lattice, CornerLooker& looker)
-{
-  return lattice.count() >= BORDERLESS_CORNERS || latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||
-         std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
-           const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
-           return border.seen >= 2 || border.endsBare();
-         });
-}
-
-bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
-{
-  const int shorter = std::min(lattice.box.width, lattice.box.height);
-  const int longer = std::max(lattice.box.width, lattice.box.height);
-  const Evidence evidence = latticeEvidence(lattice);
-  const float height = squareHeight(lattice.seedFrame());
-  const auto borders = std::count_if(sides.begin(), sides.end(), [](SideEvidence side) {
-    return side == SideEvidence::border || side == SideEvidence::doubtful_border || side == SideEvidence::bare;
-  });
-  const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
-  const bool fills_picture = std::count(sides.begin(), sides.end(), SideEvidence::cut) == 4;
-  return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE && evidence.fill >= MIN_FILL &&
-         evidence.doubt() <= (borders == 4 ? MAX_BORDERED_DOUBT : MAX_DOUBT) &&
-         (borders > 0 || isClear(lattice, evidence)) && !goes_on &&
-         (!fills_picture || evidence.unevenness <= MAX_CUT_UNEVENNESS) && height >= MIN_SQUARE &&
-         (height >= SMALL_SQUARE || evidence.fill >= SMALL_SQUARE_FILL);
+  return readByEdges(frame, lattice, sides) && isBoardOfEdges(lattice, sides);
 }
 
 /** Number of the lattice's corners that lie on the board of the outline. */
@@ -188,23 +168,15 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
       return;
     }
     const int looks = looker.looksLeft();
-    if (!map.isOpen(seed.frame.node) || !growFromSeed(seed, looker, lattice, map))
+    if (!map.isOpen(seed.frame.node))
     {
       continue;
     }
-    if (!mayBePart(lattice, looker))
+    std::array<SideEvidence, 4> sides;
+    const Growth growth = growFromSeed(seed, looker, lattice, map);
+    if (growth == Growth::none || !((growth == Growth::grown && settleByCorners(lattice, looker, map, sides)) ||
+                                    settleByEdges(lattice, looker.frame(), sides)))
     {
-      noteFailure(lattice, 1, map);
-      continue;
-    }
-    jumpGaps(lattice, looker);
-    fillHoles(lattice, looker);
-    splitAtBorders(lattice, looker.frame());
-    dropOutliers(lattice);
-    const std::array<SideEvidence, 4> sides = settleExtent(lattice, looker);
-    if (!isBoard(lattice, sides))
-    {
-      noteFailure(lattice, 2, map);
       continue;
     }
     Candidate candidate{lattice, sides, boardOutline(lattice), {}};

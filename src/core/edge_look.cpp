@@ -1,0 +1,157 @@
+#include "edge_look.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace omr
+{
+namespace
+{
+constexpr int ARMS = 4;
+constexpr std::array<float, 4> RADII = {0.22F, 0.36F, 0.5F, 0.64F};  // squares from the corner
+constexpr int PLACES = ARMS * static_cast<int>(RADII.size());
+constexpr float STEP = 0.04F;  // squares across the edge
+constexpr int REACH = 5;       // steps to either side where an edge is looked for
+constexpr int HALF = 3;        // steps from an edge to where its sides are judged
+constexpr int PROFILE = 2 * (REACH + HALF) + 1;
+
+template <std::size_t SIZE>
+float median(std::array<float, SIZE> values)
+{
+  const auto middle = values.begin() + SIZE / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** An edge that runs from a corner. */
+struct Arm
+{
+  explicit Arm(int index) : along_u(index % 2 == 0), direction(index < 2 ? 1.F : -1.F)
+  {
+  }
+  cv::Point2f at(float radius) const
+  {
+    return along_u ? cv::Point2f(direction * radius, 0) : cv::Point2f(0, direction * radius);
+  }
+  bool along_u;
+  float direction;
+};
+
+using Edges = std::array<Edge, PLACES>;
+
+Edges edgesAround(const PyramidView& view, const LocalFrame& frame, int sign)
+{
+  Edges edges;
+  for (int i = 0; i < PLACES; ++i)
+  {
+    const Arm arm(i % ARMS);
+    edges[i] = strongestEdge(view, frame, arm.at(RADII[i / ARMS]), arm.along_u, arm.direction > 0 ? sign : -sign);
+  }
+  return edges;
+}
+
+float medianContrast(const Edges& edges)
+{
+  std::array<float, PLACES> contrasts;
+  std::transform(edges.begin(), edges.end(), contrasts.begin(), [](const Edge& edge) { return edge.contrast; });
+  return median(contrasts);
+}
+
+struct Agreement
+{
+  int places = 0;
+  int arms = 0;  // with two such places at least
+};
+
+/** The edges that run straight through a corner [squares] with the ratio. */
+Agreement agreementOf(const Edges& edges, const cv::Point2f& corner, float ratio)
+{
+  constexpr int MIN_ON_ARM = 2;
+  std::array<int, ARMS> on_arm = {};
+  for (int i = 0; i < PLACES; ++i)
+  {
+    on_arm[i % ARMS] += edges[i].isLike(Arm(i % ARMS).along_u ? corner.y : corner.x, ratio) ? 1 : 0;
+  }
+  Agreement agreement;
+  for (const int places : on_arm)
+  {
+    agreement.places += places;
+    agreement.arms += places >= MIN_ON_ARM ? 1 : 0;
+  }
+  return agreement;
+}
+}  // namespace
+
+Edge strongestEdge(const PyramidView& view, const LocalFrame& frame, const cv::Point2f& place, bool along_u, int sign)
+{
+  std::array<float, PROFILE> grey;
+  std::array<float, PROFILE> logarithm;
+  const cv::Point2f across = along_u ? cv::Point2f(0, STEP) : cv::Point2f(STEP, 0);
+  for (int i = 0; i < PROFILE; ++i)
+  {
+    const cv::Point2f at = place + static_cast<float>(i - REACH - HALF) * across;
+    grey[i] = view.sample(frame.at(at.x, at.y));
+    logarithm[i] = greyLogarithm(grey[i]);
+  }
+  const auto s = static_cast<float>(sign);
+  Edge edge;
+  edge.ratio = -1e9F;
+  for (int i = HALF; i < PROFILE - HALF; ++i)
+  {
+    const float ratio = s * (logarithm[i + HALF] - logarithm[i - HALF]);
+    if (ratio > edge.ratio)
+    {
+      edge = {static_cast<float>(i - HALF - REACH) * STEP, ratio, s * (grey[i + HALF] - grey[i - HALF])};
+    }
+  }
+  return edge;
+}
+
+bool Edge::isLike(float line, float board_ratio) const
+{
+  constexpr float MAX_DIFFERENCE = 0.35F;    // of the ratio
+  constexpr float MAX_OFFSET = 2.5F * STEP;  // from the line
+  return std::abs(ratio - board_ratio) <= MAX_DIFFERENCE * board_ratio && std::abs(offset - line) <= MAX_OFFSET;
+}
+
+CornerEdges lookAtEdges(const PyramidView& view, const LocalFrame& predicted, int sign)
+{
+  constexpr float MIN_RATIO = 0.2F;
+  constexpr int MIN_AGREEING = 11;  // of 16 places
+  const Edges edges = edgesAround(view, predicted, sign);
+  std::array<float, PLACES / 2> offsets_u;
+  std::array<float, PLACES / 2> offsets_v;
+  std::array<float, PLACES> ratios;
+  for (int i = 0; i < PLACES; ++i)
+  {
+    ratios[i] = edges[i].ratio;
+    (Arm(i % ARMS).along_u ? offsets_v : offsets_u)[i / 2] = edges[i].offset;
+  }
+  CornerEdges result;
+  result.ratio = median(ratios);
+  const cv::Point2f corner(median(offsets_u), median(offsets_v));
+  result.position = predicted.at(corner.x, corner.y);
+  result.contrast = medianContrast(edges);
+  const Agreement agreement = agreementOf(edges, corner, result.ratio);
+  result.agreeing = static_cast<float>(agreement.places) / PLACES;
+  result.alike = result.ratio >= MIN_RATIO && agreement.places >= MIN_AGREEING && agreement.arms == ARMS;
+  return result;
+}
+
+CornerEdges lookAtKnownEdges(const PyramidView& view, const LocalFrame& known, int sign, float ratio)
+{
+  constexpr int MIN_AGREEING = 8;  // of 16 places
+  constexpr int MIN_ARMS = 3;
+  const Edges edges = edgesAround(view, known, sign);
+  const Agreement agreement = agreementOf(edges, {0, 0}, ratio);
+  CornerEdges result;
+  result.position = known.node;
+  result.ratio = ratio;
+  result.contrast = medianContrast(edges);
+  result.agreeing = static_cast<float>(agreement.places) / PLACES;
+  result.alike = agreement.places >= MIN_AGREEING && agreement.arms >= MIN_ARMS;
+  return result;
+}
+
+}  // namespace omr
