@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CANDIDATES_H
 #define OUTDOOR_OMR_CANDIDATES_H
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -18,17 +19,33 @@ struct Candidate
   float score = -1;   ///< largest of its windows, threshold of the network to 1
   int cell = 0;       ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
   int windows = 0;    ///< number of its windows
+  float evidence = 0;  ///< log of the odds that a marker is there, by its windows
   bool read = false;  ///< a checkerboard or target was found there
 };
 
 /**
- * Merges the windows that show a marker into boxes, the best first.
+ * What the windows of a candidate tell about it. A marker has windows of a clear score, and they fill its box; texture
+ * has weaker ones here and there.
+ *   - artanh of the best score;
+ *   - log2 of the number of windows;
+ *   - log2 of their number in relation to the places for windows in the box.
+ */
+std::array<float, BOX_FEATURES> boxFeatures(const Candidate& candidate);
+
+/** The evidence that features give for a marker. */
+float evidenceOf(const std::array<float, BOX_FEATURES>& features, const BoxEvidence& model);
+
+/**
+ * Merges the windows that show a marker into boxes, the best supported first.
  *
  * @param size   of the image [px].
  * @param scores windowScores() of it.
  */
 std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<MarkerScores>& scores,
                                       const MarkerNetwork& network);
+
+/** Removes the candidates that were not read and whose windows give less evidence than the network asks for. */
+void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std::vector<Candidate>& candidates);
 
 /** Marks the candidates that show one of the markers as read. */
 void markRead(std::vector<Candidate>& candidates, const std::vector<Checkerboard>& checkerboards,

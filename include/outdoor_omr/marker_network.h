@@ -35,6 +35,17 @@ struct FeedForward
   }
 };
 
+/** What the windows of a box tell about it; see boxFeatures(). */
+constexpr int BOX_FEATURES = 3;
+
+/** How much evidence the windows of a box give for a marker, and what that is good for. */
+struct BoxEvidence
+{
+  std::array<float, BOX_FEATURES + 1> weights = {};  ///< bias and a weight a feature; the sum is the log of the odds
+  float looked_at = 0;                               ///< least evidence of a box that is looked at again
+  float shown = 0;                                   ///< least evidence of a candidate that was not read
+};
+
 constexpr int MAX_GATE_UNITS = 16;  ///< which kernels/gate.cl computes at once
 
 /**
@@ -44,6 +55,7 @@ constexpr int MAX_GATE_UNITS = 16;  ///< which kernels/gate.cl computes at once
 struct MarkerNetwork : FeedForward
 {
   FeedForward gate;  ///< of MAX_GATE_UNITS hidden units at most; of none: every window passes
+  std::array<BoxEvidence, MARKER_KINDS> boxes;
 };
 
 /** @param inputs of the network: HAAR_FEATURES values for a MarkerNetwork, GATE_INPUTS for its gate. */
@@ -59,6 +71,9 @@ MarkerScores markerScores(const MarkerNetwork& network, const float* features);
  *         cannot be read.
  */
 MarkerNetwork loadMarkerNetwork(const std::string& file);
+
+/** The same from the text of such a file. @param name that errors give it. */
+MarkerNetwork parseMarkerNetwork(const std::string& text, const std::string& name);
 
 /** The network of config/marker_network.yaml, built into the library. */
 const MarkerNetwork& defaultMarkerNetwork();

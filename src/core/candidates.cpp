@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/haar_features.h"
@@ -10,19 +11,8 @@ namespace omr
 {
 namespace
 {
-/**
- * What a candidate needs: so many windows on all levels, and so much evidence(). At 0.7 false candidates a picture of
- * the negative set, thresholds for the best score alone cover 775 of the evaluation's 821 boards, evidence 790; targets
- * are the same 481 of 508.
- */
-constexpr int LEAST_WINDOWS = 3;
-constexpr std::array<float, MARKER_KINDS> LEAST_EVIDENCE = {1.3F, 1.F};
-
-/** The score of the best window, which every doubling of the number of windows raises. */
-float evidence(const Candidate& candidate)
-{
-  return candidate.score + .3F * std::log2(static_cast<float>(candidate.windows));
-}
+/** Larger scores count as this one: their odds are a matter of a few windows in training. */
+constexpr float LARGEST_SCORE = .999F;
 
 /** Boxes that share more than this of the smaller one are one candidate. */
 constexpr double SAME = .5;
@@ -113,6 +103,22 @@ bool shows(const Candidate& candidate, const cv::Rect& marker)
 }
 }  // namespace
 
+std::array<float, BOX_FEATURES> boxFeatures(const Candidate& candidate)
+{
+  const auto places = [&](int pixels) {
+    return static_cast<float>((pixels / candidate.cell - WINDOW_CELLS) / WINDOW_STRIDE + 1);
+  };
+  const auto windows = static_cast<float>(candidate.windows);
+  const float share = windows / (places(candidate.box.width) * places(candidate.box.height));
+  return {std::atanh(std::clamp(candidate.score, -LARGEST_SCORE, LARGEST_SCORE)), std::log2(windows),
+          std::log2(share)};
+}
+
+float evidenceOf(const std::array<float, BOX_FEATURES>& features, const BoxEvidence& model)
+{
+  return std::inner_product(features.begin(), features.end(), model.weights.begin() + 1, model.weights[0]);
+}
+
 std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<MarkerScores>& scores,
                                       const MarkerNetwork& network)
 {
@@ -136,13 +142,19 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
   candidates.reserve(clusters.size());
   for (const Cluster& cluster : clusters)
   {
-    const Candidate& candidate = cluster.candidate;
-    if (candidate.windows >= LEAST_WINDOWS && evidence(candidate) >= LEAST_EVIDENCE[static_cast<int>(candidate.kind)])
-    {
-      candidates.push_back(candidate);
-    }
+    candidates.push_back(cluster.candidate);
+    const BoxEvidence& model = network.boxes[static_cast<int>(cluster.candidate.kind)];
+    candidates.back().evidence = evidenceOf(boxFeatures(cluster.candidate), model);
   }
   return candidates;
+}
+
+void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std::vector<Candidate>& candidates)
+{
+  const auto doubtful = [&](const Candidate& candidate) {
+    return !candidate.read && candidate.evidence < network.boxes[static_cast<int>(candidate.kind)].*least;
+  };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), doubtful), candidates.end());
 }
 
 void markRead(std::vector<Candidate>& candidates, const std::vector<Checkerboard>& checkerboards,

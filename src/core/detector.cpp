@@ -117,7 +117,9 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
       return findMarkers(enlarged, settings, of_enlarged, enlarged_regions_, own_times);
     };
+    removeDoubtful(network_, &BoxEvidence::looked_at, markers.candidates);
     lookAgain(bgr, settings.candidate_looks, detect, markers);
+    removeDoubtful(network_, &BoxEvidence::shown, markers.candidates);
     watch.step("second look");
     if (settings.candidate_mode == CandidateMode::second_look)
     {

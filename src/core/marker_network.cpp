@@ -1,5 +1,6 @@
 #include "outdoor_omr/marker_network.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,10 +54,22 @@ void readUnits(const YamlFile& file, std::size_t inputs, int max_hidden, FeedFor
   appendUnits(file.get("output_units", "two units"), "two units", MARKER_KINDS, network.hidden, network.weights);
 }
 
+BoxEvidence readEvidence(const YamlFile& file)
+{
+  file.allowOnly({"weights", "looked_at", "shown"}, "a map of weights, looked_at and shown");
+  BoxEvidence evidence;
+  const std::vector<double> weights =
+      file.get("weights", "a list").numbers("the bias and a weight for each feature", BOX_FEATURES + 1);
+  std::copy(weights.begin(), weights.end(), evidence.weights.begin());
+  evidence.looked_at = static_cast<float>(file.get("looked_at", "a number").number("a number"));
+  evidence.shown = static_cast<float>(file.get("shown", "a number").number("a number"));
+  return evidence;
+}
+
 MarkerNetwork readMarkerNetwork(const YamlFile& file)
 {
-  file.allowOnly({"thresholds", "hidden_units", "output_units", "gate"},
-                 "a map of thresholds, hidden_units, output_units and gate");
+  file.allowOnly({"thresholds", "hidden_units", "output_units", "gate", "boxes"},
+                 "a map of thresholds, hidden_units, output_units, gate and boxes");
   MarkerNetwork network;
   readUnits(file, HAAR_FEATURES, MAX_HIDDEN, network);
   if (file.has("gate"))
@@ -65,6 +78,12 @@ MarkerNetwork readMarkerNetwork(const YamlFile& file)
     gate.allowOnly({"thresholds", "hidden_units", "output_units"},
                    "a map of thresholds, hidden_units and output_units");
     readUnits(gate, GATE_INPUTS, MAX_GATE_UNITS, network.gate);
+  }
+  if (file.has("boxes"))
+  {
+    const YamlFile boxes = file.get("boxes", "a map");
+    boxes.allowOnly({"checkerboard", "target"}, "a map of checkerboard and target");
+    network.boxes = {readEvidence(boxes.get("checkerboard", "a map")), readEvidence(boxes.get("target", "a map"))};
   }
   return network;
 }
@@ -98,10 +117,14 @@ MarkerNetwork loadMarkerNetwork(const std::string& file)
   return readMarkerNetwork(YamlFile::load(file));
 }
 
+MarkerNetwork parseMarkerNetwork(const std::string& text, const std::string& name)
+{
+  return readMarkerNetwork(YamlFile::parse(text, name));
+}
+
 const MarkerNetwork& defaultMarkerNetwork()
 {
-  static const MarkerNetwork NETWORK =
-      readMarkerNetwork(YamlFile::parse(DEFAULT_MARKER_NETWORK, "marker_network.yaml"));
+  static const MarkerNetwork NETWORK = parseMarkerNetwork(DEFAULT_MARKER_NETWORK, "marker_network.yaml");
   return NETWORK;
 }
 

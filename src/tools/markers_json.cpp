@@ -65,6 +65,7 @@ Json toJson(const Candidate& candidate)
   return {{"kind", candidate.kind == MarkerKind::checkerboard ? "checkerboard" : "target"},
           {"box", {candidate.box.x, candidate.box.y, candidate.box.width, candidate.box.height}},
           {"score", rounded(candidate.score)},
+          {"cell", candidate.cell},
           {"windows", candidate.windows},
           {"read", candidate.read}};
 }

@@ -36,6 +36,16 @@ void writeLayers(std::ostream& stream, const FeedForward& network, int inputs, c
   stream << indent << "output_units:  # checkerboard, target: bias, then a weight for each hidden unit\n";
   writeUnits(stream, weights, MARKER_KINDS, network.hidden, indent);
 }
+
+void writeEvidence(std::ostream& stream, const char* kind, const BoxEvidence& evidence)
+{
+  stream << "  " << kind << ": {weights: [";
+  for (int i = 0; i <= BOX_FEATURES; ++i)
+  {
+    stream << (i == 0 ? "" : ", ") << evidence.weights[i];
+  }
+  stream << "], looked_at: " << evidence.looked_at << ", shown: " << evidence.shown << "}\n";
+}
 }  // namespace
 
 cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const cv::Mat& inputs, const std::vector<WindowLabel>& labels, int hidden,
@@ -108,6 +118,9 @@ void writeMarkerNetwork(std::ostream& stream, const MarkerNetwork& network)
     stream << "gate:  # what windows must pass at a first look\n";
     writeLayers(stream, network.gate, GATE_INPUTS, "  ");
   }
+  stream << "boxes:  # log of the odds that neighbouring windows show a marker: bias, then a weight for each feature\n";
+  writeEvidence(stream, "checkerboard", network.boxes[0]);
+  writeEvidence(stream, "target", network.boxes[1]);
 }
 
 }  // namespace omr

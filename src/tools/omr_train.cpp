@@ -7,12 +7,12 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <sstream>
 
+#include "box_training.h"
 #include "classification.h"
-#include "clutter_scene.h"
 #include "image_files.h"
-#include "marker_scene.h"
 #include "network_training.h"
 #include "photographs.h"
+#include "training_pictures.h"
 
 namespace
 {
@@ -29,6 +29,9 @@ struct Options
   int held_out = 4;
   unsigned seed = 1;
   double precision = .9995;
+  std::string network;
+  double looked_at = 1;
+  double shown = .1;
 };
 
 /** Shares of the windows that are learned from; the clutter of a photograph is drawn again in each round, and then only
@@ -39,62 +42,6 @@ constexpr float HARD_SCORE = -.7F;
 
 /** The scenes that are held out are those of no seed of the training. */
 constexpr unsigned HELD_OUT_SEED = 4000000000U;
-
-using Wanted = std::function<bool(cv::RNG&, const float*, omr::WindowLabel)>;
-
-/** Windows of count pictures, which work(i, random, windows) adds; in parallel, the same for any number of threads. */
-template <typename Work>
-omr::WindowSet collect(int count, unsigned seed, const Work& work)
-{
-  std::vector<omr::WindowSet> parts(count);
-  cv::parallel_for_({0, count}, [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i)
-    {
-      cv::RNG random((static_cast<std::uint64_t>(seed) << 32) + i + 1);
-      random.next();
-      work(i, random, parts[i]);
-    }
-  });
-  omr::WindowSet all;
-  for (const omr::WindowSet& windows : parts)
-  {
-    all.append(windows);
-  }
-  return all;
-}
-
-/** What the windows of pictures are taken from, and those without a marker. */
-struct Pictures
-{
-  const std::vector<cv::Mat>& photographs;
-  int scenes;  ///< with markers; and half as many with patterns that resemble them
-
-  const cv::Mat& any(cv::RNG& random) const
-  {
-    return photographs[random.uniform(0, static_cast<int>(photographs.size()))];
-  }
-
-  omr::WindowSet markers(unsigned seed, const omr::FeedForward& gate, const Wanted& wanted) const
-  {
-    return collect(scenes, seed, [&](int /*i*/, cv::RNG& random, omr::WindowSet& windows) {
-      const omr::MarkerScene scene = omr::renderMarkerScene(any(random), random);
-      omr::addWindows(
-          scene.image, scene.markers, gate,
-          [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
-    });
-  }
-
-  omr::WindowSet clutter(unsigned seed, const omr::FeedForward& gate, const Wanted& wanted) const
-  {
-    const int count = static_cast<int>(photographs.size());
-    return collect(count + scenes / 2, seed, [&](int i, cv::RNG& random, omr::WindowSet& windows) {
-      const cv::Mat picture = i < count ? photographs[i] : omr::renderClutterScene(any(random), random);
-      omr::addWindows(
-          picture, {}, gate,
-          [&](const float* features, omr::WindowLabel label) { return wanted(random, features, label); }, windows);
-    });
-  }
-};
 
 void printCounts(const char* name, const omr::WindowSet& windows)
 {
@@ -134,14 +81,14 @@ omr::MarkerScores gateThresholds(const omr::FeedForward& gate, const omr::Window
 
 omr::MarkerNetwork train(const Options& options, const std::vector<cv::Mat>& photographs)
 {
-  const Wanted some = [](cv::RNG& random, const float* /*features*/, omr::WindowLabel label) {
+  const omr::TrainingPictures::Wanted some = [](cv::RNG& random, const float* /*features*/, omr::WindowLabel label) {
     return label == omr::WindowLabel::target ||
            random.uniform(0., 1.) < (label == omr::WindowLabel::checkerboard ? CHECKERBOARD_SHARE : CLUTTER_SHARE);
   };
-  const Pictures pictures = {photographs, options.scenes};
+  const omr::TrainingPictures pictures(photographs, options.scenes);
   const unsigned seed = 8 * options.seed;
-  omr::WindowSet windows = pictures.markers(seed, {}, some);
-  windows.append(pictures.clutter(seed + 1, {}, some));
+  omr::WindowSet windows = pictures.windows(true, seed, {}, some);
+  windows.append(pictures.windows(false, seed + 1, {}, some));
   printCounts("training", windows);
   omr::MarkerNetwork network;
   omr::FeedForward& gate = network.gate;
@@ -149,13 +96,13 @@ omr::MarkerNetwork train(const Options& options, const std::vector<cv::Mat>& pho
   gate.thresholds = gateThresholds(gate, windows, options.lost);
   for (int round = 0; round < options.rounds; ++round)
   {
-    const Wanted hard = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel /*label*/) {
+    const omr::TrainingPictures::Wanted hard = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel /*label*/) {
       const omr::MarkerScores scores = omr::markerScores(network, features);
       return std::max(scores[0], scores[1]) > HARD_SCORE;
     };
     if (round > 0)
     {
-      windows.append(pictures.clutter(seed + 1 + round, gate, hard));
+      windows.append(pictures.windows(false, seed + 1 + round, gate, hard));
       printCounts("with hard clutter", windows);
     }
     static_cast<omr::FeedForward&>(network) = omr::toFeedForward(
@@ -165,20 +112,18 @@ omr::MarkerNetwork train(const Options& options, const std::vector<cv::Mat>& pho
 }
 
 /** The scores of all windows of pictures that training has not seen. */
-omr::ScoreCounts holdOut(const Options& options, const std::vector<cv::Mat>& photographs,
-                         const omr::MarkerNetwork& network)
+omr::ScoreCounts holdOut(const omr::TrainingPictures& pictures, const omr::MarkerNetwork& network)
 {
   omr::ScoreCounts counts;
   std::mutex mutex;
-  const Wanted score = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel label) {
+  const omr::TrainingPictures::Wanted score = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel label) {
     const omr::MarkerScores scores = omr::markerScores(network, features);
     const std::lock_guard<std::mutex> lock(mutex);
     counts.add(label, scores);
     return false;
   };
-  const Pictures pictures = {photographs, std::max(1, options.scenes / options.held_out)};
-  counts.addPlain(pictures.markers(HELD_OUT_SEED, network.gate, score));
-  counts.addPlain(pictures.clutter(HELD_OUT_SEED + 1, network.gate, score));
+  counts.addPlain(pictures.windows(true, HELD_OUT_SEED, network.gate, score));
+  counts.addPlain(pictures.windows(false, HELD_OUT_SEED + 1, network.gate, score));
   return counts;
 }
 
@@ -201,6 +146,37 @@ std::string describe(const omr::Classification& at)
        << std::scientific << std::setprecision(1) << at.false_rate
        << " of the windows without a marker are taken for one";
   return text.str();
+}
+
+/** Learns what boxes are judged by from pictures that the network has not seen. */
+void judgeBoxes(const Options& options, const omr::TrainingPictures& pictures, omr::MarkerNetwork& network,
+                std::ostream& report)
+{
+  const std::vector<omr::LabelledBox> boxes = omr::labelledBoxes(pictures, HELD_OUT_SEED + 2, network);
+  for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
+  {
+    network.boxes[static_cast<int>(kind)].weights = omr::learnEvidence(boxes, kind);
+  }
+  const int plain = pictures.withoutMarkers();
+  const float looked_at = omr::evidenceOfFalse(boxes, network, plain, options.looked_at);
+  const float shown = omr::evidenceOfFalse(boxes, network, plain, options.shown);
+  for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
+  {
+    omr::BoxEvidence& model = network.boxes[static_cast<int>(kind)];
+    model.looked_at = looked_at;
+    model.shown = shown;
+    report << (kind == omr::MarkerKind::checkerboard ? "checkerboard" : "target") << ", of the boxes with one "
+           << std::setprecision(3) << 100 * omr::shareOfMarkers(boxes, network, kind, looked_at) << " % are looked at, "
+           << 100 * omr::shareOfMarkers(boxes, network, kind, shown) << " % shown if not read\n";
+  }
+}
+
+/** With the digits that a file has: what is chosen for it is what --network chooses. */
+omr::MarkerNetwork asWritten(const omr::MarkerNetwork& network)
+{
+  std::ostringstream text;
+  omr::writeMarkerNetwork(text, network);
+  return omr::parseMarkerNetwork(text.str(), "network");
 }
 
 std::string date()
@@ -228,8 +204,10 @@ void run(const Options& options, const std::string& command)
          << date() << ", " << learned.size() << " photographs and " << options.scenes
          << " scenes; held out: " << held.size() << " photographs and "
          << std::max(1, options.scenes / options.held_out) << " scenes\n";
-  omr::MarkerNetwork network = train(options, learned);
-  const omr::ScoreCounts counts = holdOut(options, held, network);
+  omr::MarkerNetwork network =
+      options.network.empty() ? asWritten(train(options, learned)) : omr::loadMarkerNetwork(options.network);
+  const omr::TrainingPictures pictures(held, std::max(1, options.scenes / options.held_out));
+  const omr::ScoreCounts counts = holdOut(pictures, network);
   for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
   {
     const char* name = kind == omr::MarkerKind::checkerboard ? "checkerboard" : "target";
@@ -244,6 +222,7 @@ void run(const Options& options, const std::string& command)
     network.thresholds[static_cast<int>(kind)] = static_cast<float>(chosen.threshold);
     report << name << ", " << describe(chosen) << "\n";
   }
+  judgeBoxes(options, pictures, network, report);
   std::cout << report.str();
   std::istringstream lines(report.str());
   for (std::string line; std::getline(lines, line);)
@@ -287,6 +266,14 @@ int parseAndRun(int argc, char** argv)
                  "precision that chooses the thresholds, as if every second window showed a marker")
       ->capture_default_str()
       ->check(CLI::Range(.5, 1.));
+  app.add_option("--network", options.network,
+                 "keeps the units of this file's network, and learns only thresholds and what boxes are judged by");
+  app.add_option("--looked-at", options.looked_at, "false boxes a picture without markers that are looked at again")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 100.));
+  app.add_option("--shown", options.shown, "false boxes a picture without markers that are shown as candidates")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 100.));
   app.add_option("--seed", options.seed, "equal seeds and photographs give equal networks")->capture_default_str();
   app.add_option("photographs", options.photographs, "folders of photographs without markers")->required();
   app.footer("Exit code: 0; 2 when nothing could be done.");
