@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "outdoor_omr/window_scores.h"
 
 using omr::Candidate;
@@ -41,6 +43,11 @@ class Scores
   {
     omr::MarkerNetwork network;
     network.thresholds = {.5F, .5F};
+    return candidates(network);
+  }
+
+  std::vector<Candidate> candidates(const omr::MarkerNetwork& network) const
+  {
     return omr::findCandidates(SIZE, scores_, network);
   }
 
@@ -63,35 +70,50 @@ TEST(Candidates, noWindowAboveTheThresholdGivesNone)
   EXPECT_TRUE(scores.candidates().empty());
 }
 
-TEST(Candidates, twoWindowsAloneAreClutter)
+TEST(Candidates, theEvidenceIsThatOfTheWindows)
 {
   Scores scores;
-  scores.show(MarkerKind::checkerboard, 0, {3, 3, 2, 1}, .99F);
-  scores.show(MarkerKind::target, 0, {20, 3, 1, 2}, .99F);
-  EXPECT_TRUE(scores.candidates().empty());
+  scores.show(MarkerKind::target, 0, {10, 5, 4, 3}, .8F);
+  scores.show(MarkerKind::target, 0, {11, 6, 2, 1}, -1.F);
+  omr::MarkerNetwork network;
+  network.thresholds = {.5F, .5F};
+  network.boxes[0].weights = {100, 100, 100, 100};
+  network.boxes[1].weights = {-1, 2, 3, 4};
+  const std::vector<Candidate> found = scores.candidates(network);
+  ASSERT_EQ(1U, found.size());
+  const std::array<float, omr::BOX_FEATURES> features = omr::boxFeatures(found[0]);
+  EXPECT_FLOAT_EQ(std::atanh(.8F), features[0]);
+  EXPECT_FLOAT_EQ(std::log2(10.F), features[1]);
+  EXPECT_FLOAT_EQ(std::log2(10.F / 12), features[2]);
+  EXPECT_FLOAT_EQ(-1 + 2 * features[0] + 3 * features[1] + 4 * features[2], found[0].evidence);
 }
 
-TEST(Candidates, fewWindowsNeedABetterScore)
+TEST(Candidates, aCertainScoreHasFiniteEvidence)
 {
-  Scores few;
-  few.show(MarkerKind::checkerboard, 0, {3, 3, 2, 2}, .65F);
-  EXPECT_TRUE(few.candidates().empty());
-  few.show(MarkerKind::checkerboard, 0, {3, 3, 1, 1}, .75F);
-  ASSERT_EQ(1U, few.candidates().size());
-  EXPECT_EQ(4, few.candidates()[0].windows);
-  Scores many;
-  many.show(MarkerKind::checkerboard, 0, {3, 3, 4, 4}, .55F);
-  EXPECT_EQ(1U, many.candidates().size());
+  Scores scores;
+  scores.show(MarkerKind::checkerboard, 0, {10, 5, 1, 1}, 1.F);
+  ASSERT_EQ(1U, scores.candidates().size());
+  EXPECT_LT(omr::boxFeatures(scores.candidates()[0])[0], 5);
 }
 
-TEST(Candidates, aTargetHasFewerWindowsThanABoard)
+TEST(Candidates, thoseInDoubtStayOnlyIfTheyWereRead)
 {
-  for (const MarkerKind kind : {MarkerKind::checkerboard, MarkerKind::target})
-  {
-    Scores scores;
-    scores.show(kind, 0, {3, 3, 3, 1}, .7F);
-    EXPECT_EQ(kind == MarkerKind::target ? 1U : 0U, scores.candidates().size());
-  }
+  omr::MarkerNetwork network;
+  network.boxes[0] = {{}, 1, 2};
+  network.boxes[1] = {{}, 3, 4};
+  std::vector<Candidate> candidates(4);
+  candidates[0].evidence = 2;
+  candidates[1].evidence = 1.9F;
+  candidates[2].evidence = -9;
+  candidates[2].read = true;
+  candidates[3].evidence = 2;
+  candidates[3].kind = MarkerKind::target;
+  omr::removeDoubtful(network, &omr::BoxEvidence::looked_at, candidates);
+  EXPECT_EQ(3U, candidates.size());
+  omr::removeDoubtful(network, &omr::BoxEvidence::shown, candidates);
+  ASSERT_EQ(2U, candidates.size());
+  EXPECT_EQ(2, candidates[0].evidence);
+  EXPECT_TRUE(candidates[1].read);
 }
 
 TEST(Candidates, neighbouringWindowsMakeOneBox)

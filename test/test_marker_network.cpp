@@ -125,14 +125,30 @@ TEST(MarkerNetwork, readsWhatIsWritten)
   static_cast<FeedForward&>(network) =
       omr::toFeedForward(*omr::trainNetwork(windows.features, windows.labels, 5, 1), {.75F, .125F});
   network.gate = omr::toFeedForward(*omr::trainNetwork(windows.gate, windows.labels, 3, 1), {-.5F, -.25F});
+  network.boxes[0] = {{1, 2, 3, 4}, -1.5F, 2.5F};
+  network.boxes[1] = {{5, 6, 7, 8}, .5F, 3.5F};
   const MarkerNetwork read = omr::loadMarkerNetwork(temporaryFile("# a comment\n" + textOf(network)));
   expectAlike(network, read);
   expectAlike(network.gate, read.gate);
+  for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
+  {
+    EXPECT_EQ(network.boxes[kind].weights, read.boxes[kind].weights);
+    EXPECT_EQ(network.boxes[kind].looked_at, read.boxes[kind].looked_at);
+    EXPECT_EQ(network.boxes[kind].shown, read.boxes[kind].shown);
+  }
 }
 
 TEST(MarkerNetwork, aFileWithoutAGateLetsAllWindowsPass)
 {
   EXPECT_EQ(0, omr::loadMarkerNetwork(temporaryFile(smallNetwork())).gate.hidden);
+}
+
+TEST(MarkerNetwork, aFileWithoutBoxesShowsThemAll)
+{
+  const std::string text = smallNetwork();
+  const MarkerNetwork network = omr::loadMarkerNetwork(temporaryFile(text.substr(0, text.find("boxes:"))));
+  EXPECT_EQ((std::array<float, omr::BOX_FEATURES + 1>{}), network.boxes[0].weights);
+  EXPECT_EQ(0, network.boxes[0].shown);
 }
 
 TEST(MarkerNetwork, refusesWhatIsNone)
@@ -143,6 +159,8 @@ TEST(MarkerNetwork, refusesWhatIsNone)
   expectRefused("thresholds: [", "not valid yaml");
   expectRefused(replaced(smallNetwork(), "target: -0.5", "target: 2"), "thresholds.target");
   expectRefused(replaced(smallNetwork(), "target: -0.5", "target: high"), "thresholds.target");
+  expectRefused(replaced(smallNetwork(), "weights: [0, ", "weights: ["), "boxes.checkerboard.weights");
+  expectRefused(replaced(smallNetwork(), "shown", "seen"), "boxes.checkerboard");
   expectRefused(replaced(smallNetwork(), "hidden_units", "hidden"), "there is no key 'hidden'");
   expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5"), "hidden_units[0]");
   expectRefused(replaced(smallNetwork(), "0.5, 0.5", "0.5, .nan"), "hidden_units[0]");

@@ -16,11 +16,11 @@ struct Candidate
 {
   cv::Rect box;  ///< covers most of the marker [px]
   MarkerKind kind = MarkerKind::checkerboard;
-  float score = -1;   ///< largest of its windows, threshold of the network to 1
-  int cell = 0;       ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
-  int windows = 0;    ///< number of its windows
+  float score = -1;    ///< largest of its windows, threshold of the network to 1
+  int cell = 0;        ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
+  int windows = 0;     ///< number of its windows
   float evidence = 0;  ///< log of the odds that a marker is there, by its windows
-  bool read = false;  ///< a checkerboard or target was found there
+  bool read = false;   ///< a checkerboard or target was found there
 };
 
 /**

@@ -110,8 +110,7 @@ std::array<float, BOX_FEATURES> boxFeatures(const Candidate& candidate)
   };
   const auto windows = static_cast<float>(candidate.windows);
   const float share = windows / (places(candidate.box.width) * places(candidate.box.height));
-  return {std::atanh(std::clamp(candidate.score, -LARGEST_SCORE, LARGEST_SCORE)), std::log2(windows),
-          std::log2(share)};
+  return {std::atanh(std::clamp(candidate.score, -LARGEST_SCORE, LARGEST_SCORE)), std::log2(windows), std::log2(share)};
 }
 
 float evidenceOf(const std::array<float, BOX_FEATURES>& features, const BoxEvidence& model)

@@ -58,8 +58,7 @@ void addBoxes(const MarkerScene& scene, const MarkerNetwork& network, std::vecto
       const cv::Rect box = boxOf(marker);
       const double shared = (box & candidate.box).area();
       touched = touched || shared > TOUCHED * candidate.box.area();
-      shown = shown ||
-              (marker.kind == candidate.kind && shared > SHOWN * std::min(box.area(), candidate.box.area()));
+      shown = shown || (marker.kind == candidate.kind && shared > SHOWN * std::min(box.area(), candidate.box.area()));
     }
     if (shown == touched)
     {

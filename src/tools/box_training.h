@@ -14,7 +14,7 @@ struct LabelledBox
 {
   std::array<float, BOX_FEATURES> features;
   MarkerKind kind;
-  bool marker;          ///< if not, no marker of any kind is there
+  bool marker;         ///< if not, no marker of any kind is there
   bool among_markers;  ///< the picture shows markers
 };
 

@@ -10,106 +10,27 @@
 #include "box_training.h"
 #include "classification.h"
 #include "image_files.h"
+#include "marker_training.h"
 #include "network_training.h"
 #include "photographs.h"
 #include "training_pictures.h"
 
 namespace
 {
-struct Options
+struct Options : omr::TrainingOptions
 {
   std::vector<std::string> photographs;
   std::string output;
-  int scenes = 3000;
-  int hidden = 48;
-  int gate = 16;
-  double lost = .05;
-  int epochs = 12;
-  int rounds = 3;
-  int held_out = 4;
-  unsigned seed = 1;
-  double precision = .9995;
   std::string network;
-  double looked_at = 1;
-  double shown = .1;
+  int scenes = 3000;
+  int held_out = 4;
+  double precision = .9995;
+  double looked_at = .5;
+  double shown = .05;
 };
-
-/** Shares of the windows that are learned from; the clutter of a photograph is drawn again in each round, and then only
- * what the network of the round before takes for a marker. */
-constexpr double CHECKERBOARD_SHARE = .3;
-constexpr double CLUTTER_SHARE = .006;
-constexpr float HARD_SCORE = -.7F;
 
 /** The scenes that are held out are those of no seed of the training. */
 constexpr unsigned HELD_OUT_SEED = 4000000000U;
-
-void printCounts(const char* name, const omr::WindowSet& windows)
-{
-  std::array<long, 3> counts = {};
-  for (const omr::WindowLabel label : windows.labels)
-  {
-    counts[static_cast<int>(label)] += 1;
-  }
-  std::cout << name << ": " << counts[0] << " windows on checkerboards, " << counts[1] << " on targets, " << counts[2]
-            << " on clutter" << std::endl;
-}
-
-/** The thresholds at which the gate loses a share of the windows of each kind. */
-omr::MarkerScores gateThresholds(const omr::FeedForward& gate, const omr::WindowSet& windows, double lost)
-{
-  std::array<std::vector<float>, omr::MARKER_KINDS> scores;
-  for (std::size_t i = 0; i < windows.labels.size(); ++i)
-  {
-    const int label = static_cast<int>(windows.labels[i]);
-    if (label < omr::MARKER_KINDS)
-    {
-      const auto* inputs = windows.gate.ptr<float>(static_cast<int>(i));
-      scores[label].push_back(omr::markerScores(gate, omr::GATE_INPUTS, inputs)[label]);
-    }
-  }
-  omr::MarkerScores thresholds = {-1, -1};
-  for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
-  {
-    if (!scores[kind].empty())
-    {
-      std::sort(scores[kind].begin(), scores[kind].end());
-      thresholds[kind] = scores[kind][static_cast<std::size_t>(lost * (scores[kind].size() - 1.))];
-    }
-  }
-  return thresholds;
-}
-
-omr::MarkerNetwork train(const Options& options, const std::vector<cv::Mat>& photographs)
-{
-  const omr::TrainingPictures::Wanted some = [](cv::RNG& random, const float* /*features*/, omr::WindowLabel label) {
-    return label == omr::WindowLabel::target ||
-           random.uniform(0., 1.) < (label == omr::WindowLabel::checkerboard ? CHECKERBOARD_SHARE : CLUTTER_SHARE);
-  };
-  const omr::TrainingPictures pictures(photographs, options.scenes);
-  const unsigned seed = 8 * options.seed;
-  omr::WindowSet windows = pictures.windows(true, seed, {}, some);
-  windows.append(pictures.windows(false, seed + 1, {}, some));
-  printCounts("training", windows);
-  omr::MarkerNetwork network;
-  omr::FeedForward& gate = network.gate;
-  gate = omr::toFeedForward(*omr::trainNetwork(windows.gate, windows.labels, options.gate, options.epochs), {});
-  gate.thresholds = gateThresholds(gate, windows, options.lost);
-  for (int round = 0; round < options.rounds; ++round)
-  {
-    const omr::TrainingPictures::Wanted hard = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel /*label*/) {
-      const omr::MarkerScores scores = omr::markerScores(network, features);
-      return std::max(scores[0], scores[1]) > HARD_SCORE;
-    };
-    if (round > 0)
-    {
-      windows.append(pictures.windows(false, seed + 1 + round, gate, hard));
-      printCounts("with hard clutter", windows);
-    }
-    static_cast<omr::FeedForward&>(network) = omr::toFeedForward(
-        *omr::trainNetwork(windows.features, windows.labels, options.hidden, options.epochs), {1, 1});
-  }
-  return network;
-}
 
 /** The scores of all windows of pictures that training has not seen. */
 omr::ScoreCounts holdOut(const omr::TrainingPictures& pictures, const omr::MarkerNetwork& network)
@@ -204,8 +125,9 @@ void run(const Options& options, const std::string& command)
          << date() << ", " << learned.size() << " photographs and " << options.scenes
          << " scenes; held out: " << held.size() << " photographs and "
          << std::max(1, options.scenes / options.held_out) << " scenes\n";
-  omr::MarkerNetwork network =
-      options.network.empty() ? asWritten(train(options, learned)) : omr::loadMarkerNetwork(options.network);
+  omr::MarkerNetwork network = options.network.empty()
+                                   ? asWritten(omr::trainMarkerNetwork({learned, options.scenes}, options))
+                                   : omr::loadMarkerNetwork(options.network);
   const omr::TrainingPictures pictures(held, std::max(1, options.scenes / options.held_out));
   const omr::ScoreCounts counts = holdOut(pictures, network);
   for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})

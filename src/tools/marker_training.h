@@ -1,0 +1,25 @@
+#ifndef OUTDOOR_OMR_TOOLS_MARKER_TRAINING_H
+#define OUTDOOR_OMR_TOOLS_MARKER_TRAINING_H
+
+#include "outdoor_omr/marker_network.h"
+#include "training_pictures.h"
+
+namespace omr
+{
+struct TrainingOptions
+{
+  int hidden = 48;
+  int gate = 16;      ///< units of the gate
+  double lost = .05;  ///< share of the windows with a marker that the gate may lose
+  int epochs = 12;
+  int rounds = 3;  ///< trainings; after each, hard clutter is added
+  unsigned seed = 1;
+};
+
+/** A network with its gate that tells the windows of pictures; it has no thresholds yet. Says on standard output what
+ * it learns from. */
+MarkerNetwork trainMarkerNetwork(const TrainingPictures& pictures, const TrainingOptions& options);
+
+}  // namespace omr
+
+#endif
