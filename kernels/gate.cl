@@ -15,9 +15,11 @@ typedef struct __attribute__((packed))
   short16 blocks;
 } Shorts16;
 
+/** The same block of 16 windows: every second one. */
 INLINE int16 blocksOf16(global const short* at)
 {
-  return convert_int16(((global const Shorts16*)at)->blocks);
+  global const Shorts16* pairs = (global const Shorts16*)at;
+  return convert_int16((short16)(pairs[0].blocks.even, pairs[1].blocks.even));
 }
 
 INLINE int16 magnitude16(int16 value)
@@ -26,23 +28,23 @@ INLINE int16 magnitude16(int16 value)
 }
 
 /**
- * Which windows of a level may show a marker at the first look, one group a row of windows, 16 of them at a time: their
- * blocks lie side by side.
+ * Which windows of a level may show a marker at the first look: every second one of every second row, one group such a
+ * row, 16 of them at a time: their blocks lie side by side.
  *
- * @param blocks  as haarCells gives them; 16 more may be read behind the last one.
+ * @param blocks  as haarCells gives them; 32 more may be read behind the last one.
  * @param weights bias of the GATE_UNITS units, a row of them for each input, then bias and weights of either output.
  * @param units   0: every window passes.
  */
 kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_across, int blocks_down,
                               global const float* restrict weights, int units, float least_checkerboard,
-                              float least_target, int windows_across, global uchar* restrict passes)
+                              float least_target, int looked_across, global uchar* restrict passes)
 {
   const size_t plane = (size_t)blocks_down * blocks_across;
   const int row = get_group_id(0);
-  global uchar* restrict out = passes + (size_t)row * windows_across;
-  for (int i = 16 * get_local_id(0); i < windows_across; i += 16 * LANES)
+  global uchar* restrict out = passes + (size_t)row * looked_across;
+  for (int i = 16 * get_local_id(0); i < looked_across; i += 16 * LANES)
   {
-    global const short* start = blocks + (size_t)row * blocks_across + i;
+    global const short* start = blocks + (size_t)2 * row * blocks_across + 2 * i;
     int16 sum = 0;
     int16 contrast = 0;
     for (int y = 0; y < 4; ++y)
@@ -107,7 +109,7 @@ kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_ac
     pass = units > 0 ? pass : 1;
     int kept[16];
     vstore16(pass, 0, kept);
-    for (int lane = 0; lane < min(16, windows_across - i); ++lane)
+    for (int lane = 0; lane < min(16, looked_across - i); ++lane)
     {
       out[i + lane] = kept[lane] != 0;
     }

@@ -64,11 +64,22 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
   return activation(sums).s01;
 }
 
+/** The scores of one window; -1 where it has too little contrast. */
+INLINE float2 windowScores(global const short* window, int cells_across, size_t plane, global const uchar* tables,
+                           int crossings, global const float* weights, int hidden)
+{
+  float features[INPUTS];
+  return haarFeatures(window, cells_across, plane, tables, crossings, features)
+             ? networkScores(features, weights, hidden)
+             : (float2)(-1, -1);
+}
+
 /**
- * The scores of the windows of a level, one group a row of windows: checkerboard and target, -1 to 1.
+ * The scores of every second window of every second row of a level, one group such a row: checkerboard and target, -1
+ * to 1.
  *
- * @param passes of each window, as gateWindows gives them.
- * @param first of the level in scores.
+ * @param passes of each of them, as gateWindows gives them.
+ * @param first  of the level in scores.
  */
 kernel GROUP void scoreWindows(global const short* restrict cells, int cells_across, int cells_down,
                                global const uchar* restrict tables, int crossings,
@@ -77,12 +88,49 @@ kernel GROUP void scoreWindows(global const short* restrict cells, int cells_acr
 {
   const size_t plane = (size_t)cells_down * cells_across;
   const int row = get_group_id(0);
+  const int looked_across = (windows_across + 1) / 2;
+  global const short* start = cells + (size_t)2 * row * WINDOW_STRIDE * cells_across;
+  global float2* out = scores + first + (size_t)2 * row * windows_across;
+  for (int i = get_local_id(0); i < looked_across; i += LANES)
+  {
+    out[2 * i] = passes[row * looked_across + i] != 0
+                     ? windowScores(start + 2 * WINDOW_STRIDE * i, cells_across, plane, tables, crossings, weights,
+                                    hidden)
+                     : (float2)(-1, -1);
+  }
+}
+
+/**
+ * The scores of the other windows of a level, one group a row: of those beside one that scoreWindows gave a score above
+ * followed, whether they pass the gate or not; the rest gets -1.
+ */
+kernel GROUP void followWindows(global const short* restrict cells, int cells_across, int cells_down,
+                                global const uchar* restrict tables, int crossings,
+                                global const float* restrict weights, int hidden, float followed, int windows_across,
+                                int windows_down, int first, global float2* scores)
+{
+  const size_t plane = (size_t)cells_down * cells_across;
+  const int row = get_group_id(0);
   global const short* start = cells + (size_t)row * WINDOW_STRIDE * cells_across;
+  global float2* level = scores + first;
   for (int i = get_local_id(0); i < windows_across; i += LANES)
   {
-    float features[INPUTS];
-    const bool contrast = passes[row * windows_across + i] != 0 &&
-                          haarFeatures(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, features);
-    scores[first + row * windows_across + i] = contrast ? networkScores(features, weights, hidden) : (float2)(-1, -1);
+    if (row % 2 == 0 && i % 2 == 0)
+    {
+      continue;
+    }
+    float best = -1;
+    for (int y = row - row % 2; y <= min(windows_down - 1, row + row % 2); y += 2)
+    {
+      for (int x = i - i % 2; x <= min(windows_across - 1, i + i % 2); x += 2)
+      {
+        const float2 beside = level[y * windows_across + x];
+        best = max(best, max(beside.x, beside.y));
+      }
+    }
+    level[row * windows_across + i] =
+        best > followed
+            ? windowScores(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, weights, hidden)
+            : (float2)(-1, -1);
   }
 }

@@ -12,9 +12,14 @@ namespace omr
 /** Number of windows of an image on all levels. @param size of the image [px]. */
 int windowCount(const cv::Size& size);
 
+/** A score from which on the neighbours of a window are looked at as well, whether they pass the gate or not. */
+constexpr float FOLLOWED_SCORE = -.98F;
+
 /**
- * The network's scores of all windows, level by level, row by row; -1 where a window has too little contrast or the
- * gate finds nothing. Plain C++: the oracle of gate.cl and network.cl, and their place where no OpenCL device is.
+ * The network's scores of all windows, level by level, row by row. The gate looks at every second window of every
+ * second row, the network at those that pass, and at the neighbours of those with a score above FOLLOWED_SCORE; the
+ * rest, and windows without contrast, have -1. Plain C++: the oracle of gate.cl and network.cl, and their place where
+ * no OpenCL device is.
  *
  * @param bgr H x W, CV_8UC3.
  */

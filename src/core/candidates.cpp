@@ -27,45 +27,85 @@ struct Cluster
   double support = 0;  // sum of its windows' scores above -1, and of those merged into it
 };
 
-/** Neighbouring windows of one level above the threshold of a kind. */
-void addClusters(const MarkerScores* scores, const cv::Size& grid, int level, MarkerKind kind, float threshold,
-                 std::vector<Cluster>& clusters)
+/** Windows this far apart belong together: two that are missed between them do not part them. */
+constexpr int REACH = 3;
+
+/** Windows of one level, in sets of neighbours. */
+class NeighbourSets
 {
-  const int k = static_cast<int>(kind);
-  cv::Mat above(grid, CV_8UC1);
-  for (int i = 0; i < grid.area(); ++i)
+ public:
+  explicit NeighbourSets(const cv::Size& grid) : number_(grid, -1)
   {
-    above.at<uchar>(i / grid.width, i % grid.width) = scores[i][k] > threshold ? 1 : 0;
   }
-  if (cv::countNonZero(above) == 0)
+
+  /** Row by row. */
+  void add(const cv::Point& index)
+  {
+    int own = static_cast<int>(parents_.size());
+    parents_.push_back(own);
+    number_(index) = own;
+    for (int y = std::max(0, index.y - REACH); y <= index.y; ++y)
+    {
+      for (int x = std::max(0, index.x - REACH); x <= std::min(number_.cols - 1, index.x + REACH); ++x)
+      {
+        if (number_(y, x) >= 0)
+        {
+          const int other = firstOf(number_(y, x));
+          const int first = std::min(own, other);
+          parents_[std::max(own, other)] = first;
+          own = first;
+        }
+      }
+    }
+  }
+
+  /** The first window of the set of a window, in the order in which they were added. */
+  int firstOf(int window) const
+  {
+    while (parents_[window] != window)
+    {
+      window = parents_[window];
+    }
+    return window;
+  }
+
+ private:
+  cv::Mat_<int> number_;  ///< of the windows that were added
+
+  std::vector<int> parents_;
+};
+
+/** Neighbouring windows of one level above the threshold of a kind. @param windows above it, row by row. */
+void addClusters(const std::vector<cv::Point>& windows, const MarkerScores* scores, const cv::Size& grid, int level,
+                 MarkerKind kind, std::vector<Cluster>& clusters)
+{
+  if (windows.empty())
   {
     return;
   }
-  // One window missed between two does not part them.
-  cv::Mat closed;
-  cv::dilate(above, closed, cv::Mat::ones(3, 3, CV_8UC1));
-  cv::Mat labels;
-  const int count = cv::connectedComponents(closed, labels, 8, CV_32S);
-  std::vector<Cluster> found(count);
-  for (int i = 0; i < grid.area(); ++i)
+  NeighbourSets sets(grid);
+  for (const cv::Point& index : windows)
   {
-    const cv::Point index(i % grid.width, i / grid.width);
-    if (above.at<uchar>(index) == 0)
-    {
-      continue;
-    }
-    const int label = labels.at<int>(index);
-    Cluster& cluster = found[label];
-    cluster.candidate.box |= windowRect(index, level);
-    cluster.candidate.score = std::max(cluster.candidate.score, scores[i][k]);
-    cluster.support += scores[i][k] + 1;
+    sets.add(index);
+  }
+  std::vector<Cluster> found(windows.size());
+  for (std::size_t i = 0; i < windows.size(); ++i)
+  {
+    const float score = scores[windows[i].y * grid.width + windows[i].x][static_cast<int>(kind)];
+    Cluster& cluster = found[sets.firstOf(static_cast<int>(i))];
+    cluster.candidate.box |= windowRect(windows[i], level);
+    cluster.candidate.score = std::max(cluster.candidate.score, score);
+    cluster.support += score + 1;
     cluster.candidate.windows += 1;
   }
-  for (int label = 1; label < count; ++label)
+  for (Cluster& cluster : found)
   {
-    found[label].candidate.kind = kind;
-    found[label].candidate.cell = cellSize(level);
-    clusters.push_back(found[label]);
+    if (cluster.candidate.windows > 0)
+    {
+      cluster.candidate.kind = kind;
+      cluster.candidate.cell = cellSize(level);
+      clusters.push_back(cluster);
+    }
   }
 }
 
@@ -130,9 +170,23 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
     {
       break;
     }
+    std::array<std::vector<cv::Point>, MARKER_KINDS> above;
+    for (int i = 0; i < grid.area(); ++i)
+    {
+      if (network.passes(first[i]))
+      {
+        for (int k = 0; k < MARKER_KINDS; ++k)
+        {
+          if (first[i][k] > network.thresholds[k])
+          {
+            above[k].emplace_back(i % grid.width, i / grid.width);
+          }
+        }
+      }
+    }
     for (const MarkerKind kind : {MarkerKind::checkerboard, MarkerKind::target})
     {
-      addClusters(first, grid, level, kind, network.thresholds[static_cast<int>(kind)], clusters);
+      addClusters(above[static_cast<int>(kind)], first, grid, level, kind, clusters);
     }
     first += grid.area();
   }

@@ -90,13 +90,16 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     }
     const cv::Size cells = size_ / cellSize(level);
     const Groups window_rows = {static_cast<std::size_t>(grid.height), 1};
+    const Groups looked_rows = {static_cast<std::size_t>(divideUp(grid.height, 2)), 1};
     launch("haarCells", {static_cast<std::size_t>(divideUp(cells.height, 2)), 1}, *windows_->integral, size_.width,
            level, *windows_->logarithm, cells.width, cells.height, *windows_->cells, *windows_->blocks);
-    launch("gateWindows", window_rows, *windows_->blocks, cells.width / 2, cells.height / 2, *windows_->gate_weights,
-           gate.hidden, beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]), grid.width,
-           *windows_->passes);
-    launch("scoreWindows", window_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
+    launch("gateWindows", looked_rows, *windows_->blocks, cells.width / 2, cells.height / 2, *windows_->gate_weights,
+           gate.hidden, beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]),
+           divideUp(grid.width, 2), *windows_->passes);
+    launch("scoreWindows", looked_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
            *windows_->weights, network.hidden, *windows_->passes, grid.width, first, *windows_->scores);
+    launch("followWindows", window_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
+           *windows_->weights, network.hidden, FOLLOWED_SCORE, grid.width, grid.height, first, *windows_->scores);
     first += grid.area();
   }
   scores.resize(first);

@@ -13,7 +13,7 @@ constexpr std::size_t INPUTS = 152;  // HAAR_FEATURES, the bias, and zeros up to
 constexpr std::size_t FIRST_CROSSING = 48;
 constexpr std::size_t GATE_UNITS = MAX_GATE_UNITS;
 constexpr std::size_t BLOCK_PLANES = 6;
-constexpr std::size_t READ_BEYOND = 16;  // blocks
+constexpr std::size_t READ_BEYOND = 32;  // blocks
 static_assert(GATE_UNITS == 16 && GATE_INPUTS == 96, "kernels/gate.cl has as many");
 static_assert(HAAR_FEATURES == 148, "kernels/haar.cl has the same number");
 static_assert(HAAR_SHIFTS == 40, "kernels/haar.cl has the same number");
