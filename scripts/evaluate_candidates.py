@@ -5,7 +5,7 @@
 What the preliminary detection gives on the sets of DATA_DIR, a Markdown table on standard output:
   covered   markers with squares or rings of at least 3 px of whose box a candidate covers half
   false     candidates a picture that lie on no marker; on the sets of negatives that is all of them
-  time      of the step "candidates", median and largest [ms], and of the second look
+  time      of the step "candidates", median and largest [ms], and of "enlargements"
 """
 import argparse
 import json
@@ -73,7 +73,7 @@ def judge(picture, answer, report):
             report['false'].append('%s %s %s %.3f %d' % (picture['image'], candidate['kind'], candidate['box'],
                                                          candidate['score'], candidate['windows']))
     report['candidates ms'].append(answer['steps_ms']['candidates'])
-    report['second look ms'].append(answer['steps_ms']['second look'])
+    report['enlargements ms'].append(answer['steps_ms']['enlargements'])
 
 
 def row(name, pictures, report):
@@ -85,7 +85,7 @@ def row(name, pictures, report):
 
     return '| %s | %s | %s | %.2f | %s | %s |' % (name, share(report['checkerboard']), share(report['target']),
                                                len(report['false']) / pictures, times(report['candidates ms']),
-                                               times(report['second look ms']))
+                                               times(report['enlargements ms']))
 
 
 def main():
@@ -101,7 +101,7 @@ def main():
                                      if os.path.isfile(os.path.join(arguments.data, name, 'truth.json')))
     if not names:
         sys.exit('evaluate_candidates: no folder of %s holds a truth.json' % arguments.data)
-    print('| set | checkerboards covered | targets covered | false a picture | candidates ms | second look ms |')
+    print('| set | checkerboards covered | targets covered | false a picture | candidates ms | enlargements ms |')
     print('|---|---|---|---|---|---|', flush=True)
     for name in names:
         folder = os.path.join(arguments.data, name)
@@ -109,7 +109,7 @@ def main():
             pictures = json.load(file)['images']
         answers = detect(folder, [picture['image'] for picture in pictures], arguments,
                          os.path.join(arguments.output, name + '.jsonl'))
-        keys = ('checkerboard', 'target', 'missed', 'false', 'candidates ms', 'second look ms')
+        keys = ('checkerboard', 'target', 'missed', 'false', 'candidates ms', 'enlargements ms')
         report = {key: [] for key in keys}
         for picture in pictures:
             judge(picture, answers[picture['image']], report)

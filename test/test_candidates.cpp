@@ -108,7 +108,7 @@ TEST(Candidates, thoseInDoubtStayOnlyIfTheyWereRead)
   candidates[2].read = true;
   candidates[3].evidence = 2;
   candidates[3].kind = MarkerKind::target;
-  omr::removeDoubtful(network, &omr::BoxEvidence::looked_at, candidates);
+  omr::removeDoubtful(network, &omr::BoxEvidence::enlarged, candidates);
   EXPECT_EQ(3U, candidates.size());
   omr::removeDoubtful(network, &omr::BoxEvidence::shown, candidates);
   ASSERT_EQ(2U, candidates.size());

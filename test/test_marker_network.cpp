@@ -133,7 +133,7 @@ TEST(MarkerNetwork, readsWhatIsWritten)
   for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
   {
     EXPECT_EQ(network.boxes[kind].weights, read.boxes[kind].weights);
-    EXPECT_EQ(network.boxes[kind].looked_at, read.boxes[kind].looked_at);
+    EXPECT_EQ(network.boxes[kind].enlarged, read.boxes[kind].enlarged);
     EXPECT_EQ(network.boxes[kind].shown, read.boxes[kind].shown);
   }
 }

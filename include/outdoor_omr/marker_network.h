@@ -42,7 +42,7 @@ constexpr int BOX_FEATURES = 3;
 struct BoxEvidence
 {
   std::array<float, BOX_FEATURES + 1> weights = {};  ///< bias and a weight a feature; the sum is the log of the odds
-  float looked_at = 0;                               ///< least evidence of a box that is looked at again
+  float enlarged = 0;                                ///< least evidence of a box that is looked at enlarged
   float shown = 0;                                   ///< least evidence of a candidate that was not read
 };
 

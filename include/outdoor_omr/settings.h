@@ -32,8 +32,8 @@ enum class FillMethod
 enum class CandidateMode
 {
   none,
-  all,         ///< candidates are reported; those not read get a second look
-  second_look  ///< only the second look; candidates are not reported
+  all,     ///< candidates are reported; those not read are looked at enlarged
+  enlarge  ///< they are only looked at; candidates are not reported
 };
 
 /**

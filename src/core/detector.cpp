@@ -6,8 +6,8 @@
 
 #include "outdoor_omr/candidates.h"
 #include "outdoor_omr/checkerboards.h"
+#include "outdoor_omr/enlargement.h"
 #include "outdoor_omr/frame.h"
-#include "outdoor_omr/second_look.h"
 #include "outdoor_omr/targets.h"
 
 namespace omr
@@ -117,11 +117,11 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
       return findMarkers(enlarged, settings, of_enlarged, enlarged_regions_, own_times);
     };
-    removeDoubtful(network_, &BoxEvidence::looked_at, markers.candidates);
-    lookAgain(bgr, settings.candidate_looks, detect, markers);
+    removeDoubtful(network_, &BoxEvidence::enlarged, markers.candidates);
+    readEnlarged(bgr, settings.candidate_looks, detect, markers);
     removeDoubtful(network_, &BoxEvidence::shown, markers.candidates);
-    watch.step("second look");
-    if (settings.candidate_mode == CandidateMode::second_look)
+    watch.step("enlargements");
+    if (settings.candidate_mode == CandidateMode::enlarge)
     {
       markers.candidates.clear();
     }

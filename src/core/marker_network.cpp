@@ -56,12 +56,12 @@ void readUnits(const YamlFile& file, std::size_t inputs, int max_hidden, FeedFor
 
 BoxEvidence readEvidence(const YamlFile& file)
 {
-  file.allowOnly({"weights", "looked_at", "shown"}, "a map of weights, looked_at and shown");
+  file.allowOnly({"weights", "enlarged", "shown"}, "a map of weights, enlarged and shown");
   BoxEvidence evidence;
   const std::vector<double> weights =
       file.get("weights", "a list").numbers("the bias and a weight for each feature", BOX_FEATURES + 1);
   std::copy(weights.begin(), weights.end(), evidence.weights.begin());
-  evidence.looked_at = static_cast<float>(file.get("looked_at", "a number").number("a number"));
+  evidence.enlarged = static_cast<float>(file.get("enlarged", "a number").number("a number"));
   evidence.shown = static_cast<float>(file.get("shown", "a number").number("a number"));
   return evidence;
 }

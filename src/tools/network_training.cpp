@@ -44,7 +44,7 @@ void writeEvidence(std::ostream& stream, const char* kind, const BoxEvidence& ev
   {
     stream << (i == 0 ? "" : ", ") << evidence.weights[i];
   }
-  stream << "], looked_at: " << evidence.looked_at << ", shown: " << evidence.shown << "}\n";
+  stream << "], enlarged: " << evidence.enlarged << ", shown: " << evidence.shown << "}\n";
 }
 }  // namespace
 

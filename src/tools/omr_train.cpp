@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
@@ -13,6 +12,7 @@
 #include "marker_training.h"
 #include "network_training.h"
 #include "photographs.h"
+#include "program.h"
 #include "training_pictures.h"
 
 namespace
@@ -25,7 +25,7 @@ struct Options : omr::TrainingOptions
   int scenes = 3000;
   int held_out = 4;
   double precision = .9995;
-  double looked_at = .5;
+  double enlarged = .5;
   double shown = .05;
 };
 
@@ -79,15 +79,15 @@ void judgeBoxes(const Options& options, const omr::TrainingPictures& pictures, o
     network.boxes[static_cast<int>(kind)].weights = omr::learnEvidence(boxes, kind);
   }
   const int plain = pictures.withoutMarkers();
-  const float looked_at = omr::evidenceOfFalse(boxes, network, plain, options.looked_at);
+  const float enlarged = omr::evidenceOfFalse(boxes, network, plain, options.enlarged);
   const float shown = omr::evidenceOfFalse(boxes, network, plain, options.shown);
   for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
   {
     omr::BoxEvidence& model = network.boxes[static_cast<int>(kind)];
-    model.looked_at = looked_at;
+    model.enlarged = enlarged;
     model.shown = shown;
     report << (kind == omr::MarkerKind::checkerboard ? "checkerboard" : "target") << ", of the boxes with one "
-           << std::setprecision(3) << 100 * omr::shareOfMarkers(boxes, network, kind, looked_at) << " % are looked at, "
+           << std::setprecision(3) << 100 * omr::shareOfMarkers(boxes, network, kind, enlarged) << " % are enlarged, "
            << 100 * omr::shareOfMarkers(boxes, network, kind, shown) << " % shown if not read\n";
   }
 }
@@ -158,10 +158,9 @@ void run(const Options& options, const std::string& command)
   }
 }
 
-int parseAndRun(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-  Options options;
-  CLI::App app("Trains the network that finds candidates, from photographs without markers and rendered markers.");
+  app.description("Trains the network that finds candidates, from photographs without markers and rendered markers.");
   app.add_option("--output", options.output, "yaml file for the network")->required();
   app.add_option("--scenes", options.scenes, "rendered scenes to learn from")
       ->capture_default_str()
@@ -190,7 +189,7 @@ int parseAndRun(int argc, char** argv)
       ->check(CLI::Range(.5, 1.));
   app.add_option("--network", options.network,
                  "keeps the units of this file's network, and learns only thresholds and what boxes are judged by");
-  app.add_option("--looked-at", options.looked_at, "false boxes a picture without markers that are looked at again")
+  app.add_option("--enlarged", options.enlarged, "false boxes a picture without markers that are looked at enlarged")
       ->capture_default_str()
       ->check(CLI::Range(0., 100.));
   app.add_option("--shown", options.shown, "false boxes a picture without markers that are shown as candidates")
@@ -199,33 +198,18 @@ int parseAndRun(int argc, char** argv)
   app.add_option("--seed", options.seed, "equal seeds and photographs give equal networks")->capture_default_str();
   app.add_option("photographs", options.photographs, "folders of photographs without markers")->required();
   app.footer("Exit code: 0; 2 when nothing could be done.");
-  try
-  {
-    app.parse(argc, argv);
-    std::string command = "omr_train";
-    for (int i = 1; i < argc; ++i)
-    {
-      command += std::string(" ") + argv[i];
-    }
-    run(options, command);
-    return 0;
-  }
-  catch (const CLI::ParseError& error)
-  {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
 }
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  try
+  std::string command = "omr_train";
+  for (int i = 1; i < argc; ++i)
   {
-    return parseAndRun(argc, argv);
+    command += std::string(" ") + argv[i];
   }
-  catch (const std::exception& error)
-  {
-    std::cerr << "omr_train: " << error.what() << "\n";
-    return 2;
-  }
+  return omr::runProgram<Options>("omr_train", argc, argv, declare, [&](const Options& options) {
+    run(options, command);
+    return omr::SUCCESS;
+  });
 }

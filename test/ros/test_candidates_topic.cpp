@@ -103,7 +103,7 @@ TEST_F(CandidatesTopicTest, theRegionOfInterestCoversWhatIsNotRead)
 TEST_F(CandidatesTopicTest, noneAndSecondLookPublishNone)
 {
   show(ros::Time(300));
-  set({{"candidate_mode", "second_look"}});
+  set({{"candidate_mode", "enlarge"}});
   show(ros::Time(301));
   set({{"candidate_mode", "all"}});
   show(ros::Time(302));

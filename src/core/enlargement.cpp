@@ -1,4 +1,4 @@
-#include "outdoor_omr/second_look.h"
+#include "outdoor_omr/enlargement.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -119,7 +119,7 @@ bool lookAt(const cv::Mat& bgr, const Candidate& candidate, const std::function<
 }
 }  // namespace
 
-void lookAgain(const cv::Mat& bgr, int looks, const std::function<Markers(const cv::Mat&)>& detect, Markers& markers)
+void readEnlarged(const cv::Mat& bgr, int looks, const std::function<Markers(const cv::Mat&)>& detect, Markers& markers)
 {
   for (Candidate& candidate : markers.candidates)
   {

@@ -1,4 +1,4 @@
-#include "outdoor_omr/second_look.h"
+#include "outdoor_omr/enlargement.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ struct Detector
 };
 }  // namespace
 
-TEST(SecondLook, whatIsReadComesBackInPixelsOfTheImage)
+TEST(Enlargement, whatIsReadComesBackInPixelsOfTheImage)
 {
   Markers markers;
   markers.candidates = {candidateAt({100, 60, 20, 16})};
@@ -54,7 +54,7 @@ TEST(SecondLook, whatIsReadComesBackInPixelsOfTheImage)
                    cv::Point2f(1.5F, 61.5F)};
   board.inner_corners = {cv::Point2f(20.5F, 21.5F)};
   detector.found.checkerboards = {board};
-  omr::lookAgain(IMAGE, 5, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 5, std::ref(detector), markers);
   ASSERT_EQ(1U, markers.targets.size());
   // The centre of the enlarged top-left pixel lies a quarter of a pixel left of that of the image's.
   EXPECT_NEAR(90 + 20, markers.targets[0].center.x, 1e-9);
@@ -66,35 +66,35 @@ TEST(SecondLook, whatIsReadComesBackInPixelsOfTheImage)
   EXPECT_EQ(1U, detector.sizes.size());
 }
 
-TEST(SecondLook, threeTimesWhereTwiceShowsNothing)
+TEST(Enlargement, threeTimesWhereTwiceShowsNothing)
 {
   Markers markers;
   markers.candidates = {candidateAt({100, 60, 20, 16})};
   Detector detector;
   detector.answered = {120, 96};
   detector.found.targets = {targetAt({61, 49}, 40)};
-  omr::lookAgain(IMAGE, 5, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 5, std::ref(detector), markers);
   EXPECT_EQ((std::vector<cv::Size>{{80, 64}, {120, 96}}), detector.sizes);
   ASSERT_EQ(1U, markers.targets.size());
   EXPECT_NEAR(90 + 20, markers.targets[0].center.x, 1e-9);
 }
 
-TEST(SecondLook, onlyUnreadOnesOfSmallSquaresAreLookedAtAndNotMoreThanAskedFor)
+TEST(Enlargement, onlyUnreadOnesOfSmallSquaresAreLookedAtAndNotMoreThanAskedFor)
 {
   Markers markers;
   markers.candidates.assign(6, candidateAt({100, 60, 20, 16}));
   markers.candidates[0].read = true;
   markers.candidates[1].cell = 8;
   Detector detector;
-  omr::lookAgain(IMAGE, 3, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 3, std::ref(detector), markers);
   EXPECT_EQ(6U, detector.sizes.size()) << "three candidates, two enlargements each";
   EXPECT_FALSE(markers.candidates[5].read);
   detector.sizes.clear();
-  omr::lookAgain(IMAGE, 0, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 0, std::ref(detector), markers);
   EXPECT_TRUE(detector.sizes.empty());
 }
 
-TEST(SecondLook, aPlaceWithAKnownMarkerGetsNoOther)
+TEST(Enlargement, aPlaceWithAKnownMarkerGetsNoOther)
 {
   Markers markers;
   markers.targets = {targetAt({110, 68}, 12)};
@@ -102,26 +102,26 @@ TEST(SecondLook, aPlaceWithAKnownMarkerGetsNoOther)
   Detector detector;
   detector.answered = {80, 64};
   detector.found.targets = {targetAt({40.5, 31.5}, 30)};
-  omr::lookAgain(IMAGE, 5, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 5, std::ref(detector), markers);
   EXPECT_EQ(1U, markers.targets.size());
 }
 
-TEST(SecondLook, theImagesEdgeCutsThePlace)
+TEST(Enlargement, theImagesEdgeCutsThePlace)
 {
   Markers markers;
   markers.candidates = {candidateAt({0, 0, 20, 16}), candidateAt({280, 184, 20, 16})};
   Detector detector;
-  omr::lookAgain(IMAGE, 5, std::ref(detector), markers);
+  omr::readEnlarged(IMAGE, 5, std::ref(detector), markers);
   EXPECT_EQ((std::vector<cv::Size>{{60, 48}, {90, 72}, {60, 48}, {90, 72}}), detector.sizes);
 }
 
-TEST(SecondLook, aLargePlaceIsNotEnlarged)
+TEST(Enlargement, aLargePlaceIsNotEnlarged)
 {
   const cv::Mat image(1080, 1920, CV_8UC3);
   Markers markers;
   markers.candidates = {candidateAt({500, 300, 400, 200}, 4)};
   Detector detector;
-  omr::lookAgain(image, 5, std::ref(detector), markers);
+  omr::readEnlarged(image, 5, std::ref(detector), markers);
   EXPECT_TRUE(detector.sizes.empty());
 }
 

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_SECOND_LOOK_H
-#define OUTDOOR_OMR_SECOND_LOOK_H
+#ifndef OUTDOOR_OMR_ENLARGEMENT_H
+#define OUTDOOR_OMR_ENLARGEMENT_H
 
 #include <functional>
 #include <opencv2/core.hpp>
@@ -17,7 +17,8 @@ namespace omr
  * @param detect  finds the checkerboards and targets of an image.
  * @param markers of the image, with its candidates.
  */
-void lookAgain(const cv::Mat& bgr, int looks, const std::function<Markers(const cv::Mat&)>& detect, Markers& markers);
+void readEnlarged(const cv::Mat& bgr, int looks, const std::function<Markers(const cv::Mat&)>& detect,
+                  Markers& markers);
 
 }  // namespace omr
 
