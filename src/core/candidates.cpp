@@ -145,11 +145,9 @@ bool shows(const Candidate& candidate, const cv::Rect& marker)
 
 std::array<float, BOX_FEATURES> boxFeatures(const Candidate& candidate)
 {
-  const auto places = [&](int pixels) {
-    return static_cast<float>((pixels / candidate.cell - WINDOW_CELLS) / WINDOW_STRIDE + 1);
-  };
+  const auto places = [&](int pixels) { return (pixels / candidate.cell - WINDOW_CELLS) / WINDOW_STRIDE + 1; };
   const auto windows = static_cast<float>(candidate.windows);
-  const float share = windows / (places(candidate.box.width) * places(candidate.box.height));
+  const float share = windows / static_cast<float>(places(candidate.box.width) * places(candidate.box.height));
   return {std::atanh(std::clamp(candidate.score, -LARGEST_SCORE, LARGEST_SCORE)), std::log2(windows), std::log2(share)};
 }
 
