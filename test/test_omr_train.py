@@ -44,6 +44,10 @@ class TrainTest(unittest.TestCase):
                 return [line for line in stream if not line.startswith('#')]
         self.assertEqual(weights(first), weights(second))
         self.assertNotEqual(weights(first), weights(other))
+        self.assertIn('boxes', ''.join(weights(first)))
+        again, done = self.train('d.yaml', '--network', first)
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertEqual(weights(first), weights(again), 'what is kept and what is learned again')
         with open(first) as stream:
             self.assertTrue(stream.readline().startswith('# omr_train --scenes 4'))
         photograph = os.path.join(self.photographs, 'site', '0.png')
