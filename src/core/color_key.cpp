@@ -48,18 +48,33 @@ double squared(double value)
   return value * value;
 }
 
+/** Logarithms of a reflectance, which tells little where it is low. */
+LinearColor logarithms(const LinearColor& reflectance)
+{
+  return {std::log(reflectance[0] + FLOOR), std::log(reflectance[1] + FLOOR), std::log(reflectance[2] + FLOOR)};
+}
+
+std::array<LinearColor, LETTERS> logarithmsOfLetters()
+{
+  std::array<LinearColor, LETTERS> result;
+  std::transform(REFLECTANCE.begin(), REFLECTANCE.end(), result.begin(), logarithms);
+  return result;
+}
+
 Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze)
 {
+  static const std::array<LinearColor, LETTERS> LOGARITHMS = logarithmsOfLetters();
+  LinearColor reflectance;
+  for (int c = 0; c < 3; ++c)
+  {
+    // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
+    reflectance[c] = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze));
+  }
+  const LinearColor seen = logarithms(reflectance);
   Costs costs{};
   for (int letter = 0; letter < LETTERS; ++letter)
   {
-    LinearColor error;
-    for (int c = 0; c < 3; ++c)
-    {
-      // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
-      const double reflectance = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze));
-      error[c] = std::log(reflectance + FLOOR) - std::log(REFLECTANCE[letter][c] + FLOOR);
-    }
+    const LinearColor error = seen - LOGARITHMS[letter];
     // A shadow that covers one ring more than another changes its brightness alone.
     const double brightness = (error[0] + error[1] + error[2]) / 3;
     costs[letter] = 3 * squared(brightness / BRIGHTNESS_DEVIATION);
@@ -183,19 +198,24 @@ void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& see
   }
   for (const White& white : possibleWhites(rings, seen, around))
   {
+    const double excess = excessCost(rings, seen, white.color);
     for (const double haze : HAZES)
     {
+      const double assumed = white.cost + excess + HAZE_COST * haze;
+      if (assumed > best.cost + MIN_MARGIN)
+      {
+        break;  // nor with a thicker haze: no letter that is chosen or in doubt comes from here
+      }
       std::vector<Costs> costs;
       costs.reserve(rings.size());
       for (std::size_t k = 0; k < rings.size(); ++k)
       {
         costs.push_back(seen[k] ? letterCosts(rings[k], white.color, haze) : Costs{});
       }
-      const double assumed = white.cost + excessCost(rings, seen, white.color) + HAZE_COST * haze;
       Explanation explanation = cheapest(costs, rings.size(), 0);
       if (explanation.cost + assumed > best.cost + MIN_MARGIN)
       {
-        continue;  // no letter that is chosen or in doubt comes from here
+        continue;  // likewise
       }
       for (std::size_t k = 0; k < rings.size(); ++k)
       {

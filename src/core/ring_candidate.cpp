@@ -136,7 +136,7 @@ void removeBlur(RingCandidate& candidate)
 {
   for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
   {
-    if (isBesideStronger(candidate.boundaries, k) && isBlur(candidate.profile, radiiOf(candidate.boundaries), k))
+    if (isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k))
     {
       candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
       candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
@@ -152,7 +152,7 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
   for (int split = 0; split < MOST_SPLITS; ++split)
   {
     std::vector<double> radii = radiiOf(candidate.boundaries);
-    const double radius = mergedBoundary(candidate.profile, radii);
+    const double radius = mergedBoundary(*candidate.profile, radii);
     if (radius <= 0)
     {
       return;
@@ -163,7 +163,7 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
     const double scale = candidate.rings.radii[ring] / *place;
     radii.insert(place, radius);
     candidate.boundaries.insert(candidate.boundaries.begin() + ring,
-                                measureBoundary(candidate.profile, support, radii, static_cast<std::size_t>(ring)));
+                                measureBoundary(*candidate.profile, support, radii, static_cast<std::size_t>(ring)));
     candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
   }
 }
@@ -173,13 +173,15 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
 {
   candidate.image_size = bgr.size();
   Rings& rings = candidate.rings;
+  const auto profile = std::make_shared<RingProfile>();
+  candidate.profile = profile;
   std::vector<RadialEdgel> edgels;
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
     const double reach = profileReach(rings);
-    sampleProfile(bgr, rings.family, reach, candidate.profile);
+    sampleProfile(bgr, rings.family, reach, *profile);
     collectRadialEdgels(map, rings.family, reach, .92, edgels);
-    candidate.boundaries = findBoundaries(candidate.profile, AngularSupport(edgels, reach), rings.radii);
+    candidate.boundaries = findBoundaries(*profile, AngularSupport(edgels, reach), rings.radii);
     if (candidate.boundaries.size() < 2)
     {
       return false;
@@ -205,7 +207,7 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
   }
   removeBlur(candidate);
-  addPartialBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+  addPartialBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
   Boundary& disk = candidate.boundaries.front();
   if (disk.contrast > CLEAR_CONTRAST && disk.radius > COVERED_RADIUS && share(disk.supported) < CLEAR_SUPPORT &&
@@ -214,7 +216,7 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
     disk.shown = false;  // so strong a step has an edge: what is seen is a thing on the disk
   }
   candidate.ring_count = static_cast<int>(candidate.boundaries.size());
-  addHiddenBoundaries(candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
+  addHiddenBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                       rings.radii);
   return true;
 }
@@ -245,11 +247,7 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
 {
   Rings& rings = candidate.rings;
   rings.family = seed.family;
-  rings.radii.clear();
-  if (is_boundary)
-  {
-    rings.radii = {seed.radius + 1.2};
-  }
+  rings.radii.assign(is_boundary ? 1 : 0, seed.radius + 1.2);
   return growRings(map, seed.radius * (is_boundary ? 2.4 : 1.5) + 6, rings) && complete(map, bgr, candidate);
 }
 

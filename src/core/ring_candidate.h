@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_RING_CANDIDATE_H
 #define OUTDOOR_OMR_CORE_RING_CANDIDATE_H
 
+#include <memory>
 #include <vector>
 
 #include "ring_boundaries.h"
@@ -15,10 +16,10 @@ struct RingCandidate
 {
   cv::Size image_size;
   Rings rings;
-  std::vector<Boundary> boundaries;  ///< one per radius of rings
-  int ring_count = 0;                ///< of them, that were found without assuming equal rings
-  RingProfile profile;               ///< of the final family
-  double visible = 0;                ///< share of the directions in which at least half of the boundaries show [0, 1]
+  std::vector<Boundary> boundaries;            ///< one per radius of rings
+  int ring_count = 0;                          ///< of them, that were found without assuming equal rings
+  std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
+  double visible = 0;   ///< share of the directions in which at least half of the boundaries show [0, 1]
   double evidence = 0;  ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]
 };
 

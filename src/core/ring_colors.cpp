@@ -30,6 +30,11 @@ class Values
     }
   }
 
+  bool empty() const
+  {
+    return values_[0].empty();
+  }
+
   /** 0 without values. */
   cv::Vec3d median()
   {
@@ -82,7 +87,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
   {
     const AngleBins shown = ring > 0 ? shownDirections(boundaries[ring - 1]) : 0;
     Values steps;
-    Values light;
+    Values colors;
     for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
     {
       LogColor color;
@@ -90,7 +95,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
       LogColor after;
       if (ringColor(profile, radii, ring, angle, color))
       {
-        light.add(logLight(color));
+        colors.add(color);
       }
       // Where a shadow's edge runs, the two sides of the boundary are still under one light.
       if ((shown >> angle & 1) != 0 && ringColor(profile, radii, ring - 1, angle, before, RingPart::outer_rim) &&
@@ -100,7 +105,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
       }
     }
     chained[ring] = ring > 0 ? chained[ring - 1] + steps.median() : cv::Vec3d();
-    medians[ring] = light.median();
+    medians[ring] = colors.empty() ? cv::Vec3d() : logLight(LogColor(colors.median()));
     if ((ring == 0 || boundaries[ring - 1].shown) && (ring + 1 == count || boundaries[ring].shown))
     {
       level += medians[ring] - chained[ring];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
@@ -104,18 +105,25 @@ void forEachMark(const std::vector<uchar>& marks, const Action& action)
   }
 }
 
-bool isPointSymmetric(const cv::Mat& grey, int x, int y, int min_range)
+/** Half of the pixels two away from a pixel, as offsets in memory; the others lie opposite. */
+using HalfRing = std::array<std::ptrdiff_t, 6>;
+
+HalfRing halfRing(const cv::Mat& grey)
 {
-  constexpr std::array<int, 6> RING_X = {2, 2, 1, 0, -1, -2};
-  constexpr std::array<int, 6> RING_Y = {0, 1, 2, 2, 2, 1};
+  const auto step = static_cast<std::ptrdiff_t>(grey.step[0]);
+  return {2, step + 2, 2 * step + 1, 2 * step, 2 * step - 1, step - 2};
+}
+
+bool isPointSymmetric(const uchar* pixel, const HalfRing& ring, int min_range)
+{
   int least = 255;
   int most = 0;
   int largest = 0;
   int sum = 0;
-  for (std::size_t i = 0; i < RING_X.size(); ++i)
+  for (const std::ptrdiff_t offset : ring)
   {
-    const int a = grey.at<uchar>(y + RING_Y[i], x + RING_X[i]);
-    const int b = grey.at<uchar>(y - RING_Y[i], x - RING_X[i]);
+    const int a = pixel[offset];
+    const int b = pixel[-offset];
     least = std::min({least, a, b});
     most = std::max({most, a, b});
     largest = std::max(largest, std::abs(a - b));
@@ -136,6 +144,7 @@ struct Point
 void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, std::vector<Point>& found)
 {
   const int width = grey.cols;
+  const HalfRing ring = halfRing(grey);
   std::vector<std::int16_t> buffer(8 * static_cast<std::size_t>(width), 0);
   const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * width]; };
   std::array<std::int16_t*, 3> slopes = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
@@ -158,8 +167,9 @@ void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, s
       continue;
     }
     markMaxima(responses[0], largest[0], largest[2], width, least.response, marks.data());
+    const auto* row = grey.ptr<uchar>(y - 1);
     forEachMark(marks, [&](int x) {
-      if (isPointSymmetric(grey, x, y - 1, least.range))
+      if (isPointSymmetric(row + x, ring, least.range))
       {
         found.push_back({responses[0][x], {x, y - 1}});
       }

@@ -30,8 +30,12 @@ void SearchMap::addFailure(const cv::Point2f& point, float square_height, int fa
   const cv::Rect inside = around & cv::Rect(cv::Point(), failures_.size());
   if (!inside.empty())  // a corner near the border may be fitted outside the image
   {
-    cv::Mat cells = failures_(inside);
-    cells += cv::Scalar(failures);
+    for (int y = inside.y; y < inside.br().y; ++y)
+    {
+      auto* row = failures_.ptr<uchar>(y);
+      std::transform(row + inside.x, row + inside.br().x, row + inside.x,
+                     [failures](uchar before) { return cv::saturate_cast<uchar>(before + failures); });
+    }
   }
 }
 

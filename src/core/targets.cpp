@@ -109,7 +109,7 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
 bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 {
   std::vector<double>& radii = candidate.rings.radii;
-  target.colors = readColors(candidate.profile, candidate.boundaries, radii);
+  target.colors = readColors(*candidate.profile, candidate.boundaries, radii);
   target.center = cv::Point2f(candidate.rings.family.center);
   for (const double radius : radii)
   {
