@@ -34,8 +34,21 @@ double toGrey(double linear)
   return 255 * (value <= .0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - .055);
 }
 
-cv::Vec3d surface(const TargetScene& scene, const cv::Point2d& q, cv::RNG& random)
+/** The sheet's point that a camera far away sees at a point of the plane. */
+cv::Point2d onSheet(const TargetScene& scene, const cv::Point2d& q)
 {
+  if (scene.bend == 0)
+  {
+    return q;
+  }
+  const double sine = std::min(.99, std::max(-.99, scene.bend * q.x));
+  const double depth = (1 - std::sqrt(1 - sine * sine)) / scene.bend;
+  return {std::asin(sine) / scene.bend, (q.y - depth * std::sin(scene.bend_tilt)) / std::cos(scene.bend_tilt)};
+}
+
+cv::Vec3d surface(const TargetScene& scene, const cv::Point2d& seen, cv::RNG& random)
+{
+  const cv::Point2d q = onSheet(scene, seen);
   const double r = std::hypot(q.x, q.y);
   if (scene.occluder > 0 && q.x > scene.radii.back() * (1 - 2 * scene.occluder))
   {

@@ -12,6 +12,8 @@ struct TargetScene
   std::string colors = "RWPGB";                       ///< W P R G B, from the inside out
   std::vector<double> radii = {20, 40, 60, 80, 100};  ///< on the plane, of each ring's outer boundary [px]
   cv::Matx33d homography = cv::Matx33d(1, 0, 240, 0, 1, 180, 0, 0, 1);  ///< plane, origin in the centre, to image
+  double bend = 0;                    ///< curvature of the sheet along x, as on a pipe [1/px]
+  double bend_tilt = 0;               ///< of the pipe's axis towards the camera [rad]
   double sheet_half_side = 130;       ///< of the square white sheet on the plane; 0: none
   cv::Vec3d ground = {.3, .3, .32};   ///< reflectance around (blue, green, red)
   double texture = 0;                 ///< deviation of the ground's reflectance, relative

@@ -1,3 +1,4 @@
+#include "bent_refinement.h"
 #include "ring_refinement.h"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,15 @@ RingFamily tiltedFamily()
   omr::familyFromMoments({320.3, 240.7}, 900, 200, 500, family);
   family.hx = .0012;
   family.hy = -.0007;
+  return family;
+}
+
+RingFamily bentFamily()
+{
+  RingFamily family = tiltedFamily();
+  family.hx = family.hy = 0;
+  family.bend = {.007, .004};
+  family.normal = {-.2, .5};
   return family;
 }
 
@@ -41,6 +51,46 @@ TEST(RingFamily, planeAndImageInvertEachOther)
   const RingFamily family = tiltedFamily();
   const cv::Point2d q(31, -58);
   EXPECT_NEAR(0, cv::norm(family.toPlane(family.toImage(q)) - q), 1e-9);
+}
+
+TEST(RingFamily, aBentSheetAndItsImageInvertEachOther)
+{
+  const RingFamily family = bentFamily();
+  for (const cv::Point2d& q : {cv::Point2d(31, -58), cv::Point2d(-60, 10), cv::Point2d(.1, .2)})
+  {
+    EXPECT_NEAR(0, cv::norm(family.toPlane(family.toImage(q)) - q), 1e-4);
+    const cv::Point2d gradient = family.radiusGradient(q);
+    const cv::Point2d p = family.toImage(q);
+    const double ahead = cv::norm(family.toPlane(p + .01 * gradient)) - cv::norm(q);
+    EXPECT_NEAR(gradient.dot(gradient), ahead / .01, .02);
+  }
+}
+
+TEST(RingFamily, aSlightBendIsNearlyPlane)
+{
+  const RingFamily plane = tiltedFamily();
+  RingFamily bent = plane;
+  bent.bend = {1e-7, 0};
+  const cv::Point2d q(31, -58);
+  EXPECT_NEAR(0, cv::norm(bent.toImage(q) - plane.toImage(q)), 1e-3);
+  EXPECT_NEAR(0, cv::norm(bent.radiusGradient(q) - plane.radiusGradient(q)), 1e-4);
+  EXPECT_NEAR(plane.ellipse(70).size.width, bent.ellipse(70).size.width, .05);
+}
+
+TEST(RingFamily, bendIsFound)
+{
+  const RingFamily truth = bentFamily();
+  const std::vector<double> radii = {20, 40, 60, 80};
+  const std::vector<BoundaryPoint> points = pointsOf(truth, radii, .1);
+  RingFamily family = tiltedFamily();
+  std::vector<double> found = radii;
+  // As if it were plane the circles miss their points and the centre is off.
+  EXPECT_LT(1, omr::refineFamily(points, true, family, found));
+  EXPECT_LT(.2, cv::norm(family.center - truth.center));
+  ASSERT_TRUE(omr::findBend(points, family, found));
+  EXPECT_GT(.13, omr::refineBentFamily(points, family, found));
+  EXPECT_NEAR(0, cv::norm(family.center - truth.center), .1);
+  EXPECT_NEAR(cv::norm(truth.bend), cv::norm(family.bend), .1 * cv::norm(truth.bend));
 }
 
 TEST(RingFamily, momentsGiveShapeOfDeterminantOne)

@@ -71,6 +71,32 @@ OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const flo
   }
 }
 
+/** The same on a bent sheet, where no formula leads from the image to the plane. */
+void testBentEdgels(const RadialTest& test, const float* x, const float* y, const float* nx, const float* ny,
+                    std::size_t size, RadialChunk& chunk)
+{
+  const cv::Rect2d box(test.top_left, test.bottom_right);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    chunk.is_radial[i] = 0;
+    if (!box.contains(cv::Point2d(x[i], y[i])))
+    {
+      continue;
+    }
+    const cv::Point2d q = test.family.toPlane(cv::Point2d(x[i], y[i]));
+    const double squared = q.dot(q);
+    const cv::Point2d gradient = test.family.radiusGradient(q);
+    const double projection = gradient.dot(cv::Point2d(nx[i], ny[i]));
+    chunk.radius[i] = static_cast<float>(std::sqrt(squared));
+    chunk.angle[i] = fastAngle(static_cast<float>(q.x), static_cast<float>(q.y));
+    chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
+    chunk.is_radial[i] = squared <= test.max_squared && squared >= test.min_squared &&
+                                 projection * projection >= test.squared_cosine * gradient.dot(gradient)
+                             ? 1
+                             : 0;
+  }
+}
+
 /** @param degrees on the plane. */
 AngleBins binsAt(float degrees, double radius)
 {
@@ -104,6 +130,7 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
   const cv::Point2d bottom_right = family.center + half;
   const RadialTest test{
       family, top_left, bottom_right, MIN_RADIUS * MIN_RADIUS, max_radius * max_radius, min_cosine * min_cosine};
+  const auto test_edgels = family.isBent() ? testBentEdgels : testEdgels;
   RadialChunk chunk;
   map.visitTiles(top_left.x, top_left.y, bottom_right.x, bottom_right.y, [&](const EdgelTile& tile) {
     for (std::size_t first = 0; first < tile.size(); first += CHUNK)
@@ -111,7 +138,7 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
       const float* x = tile.x() + first;
       const float* y = tile.y() + first;
       const std::size_t size = std::min(CHUNK, tile.size() - first);
-      testEdgels(test, x, y, tile.nx() + first, tile.ny() + first, size, chunk);
+      test_edgels(test, x, y, tile.nx() + first, tile.ny() + first, size, chunk);
       for (std::size_t i = 0; i < size; ++i)
       {
         if (chunk.is_radial[i] != 0)

@@ -18,6 +18,19 @@ constexpr double SAME_PLACE = .3;        // [px]: the profile needs no further l
 constexpr double KNOWN_REACH = 1.3;      // how far to look around fewer, relative to the outermost
 constexpr double KNOWN_GATE = .06;       // of the outermost known boundary: perspective moves their centres apart
 
+// Of rings that may be bent.
+constexpr int BENT_RINGS = 3;
+constexpr double BENT_RADIUS = 12;  // [px]
+constexpr double BENT_EVIDENCE = .65;
+constexpr double BENT_RMS = .1;  // of what lies on a plane, most [px]
+constexpr double BENT_RELATIVE_RMS = .002;
+constexpr double BENT_GAIN = .75;     // of the root mean square, at least
+constexpr double SMALL_GAIN = .6;     // of rings of less than SMALL_RADIUS, whose few edgels a bend fits easily
+constexpr double SMALL_RADIUS = 25;   // [px]
+constexpr double SMALL_VISIBLE = .9;  // of such rings, at least: else a bend puts the centre anywhere
+constexpr double NEEDED_GAIN = .8;    // where the rings are a target's only so
+constexpr double BENT_LOSS = .02;     // of evidence x visible share, at most
+
 constexpr double CLEAR_CONTRAST = .5;
 constexpr double CLEAR_SUPPORT = .45;
 constexpr double CLEAR_AGREEMENT = .85;
@@ -25,16 +38,6 @@ constexpr double COVERED_RADIUS = 5;  // smaller disks have no edge of their own
 constexpr double SPLIT_EVIDENCE = .8;
 constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
 constexpr int MOST_SPLITS = 2;
-
-// The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
-// clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
-constexpr int MANY_RINGS = 4;
-constexpr double SMALL_RADIUS = 15;       // [px]
-constexpr double LARGE_RADIUS = 25;       // [px]
-constexpr double SMALLEST_DISK = 2;       // radius [px]
-constexpr double MOSTLY_VISIBLE = .8;     // of the directions
-constexpr double LEAST_VISIBLE = .66;     // round arches show .5 to .65
-constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
 
 /** How far beyond the outermost boundary another may lie. */
 double profileReach(const Rings& rings)
@@ -76,49 +79,6 @@ double evidenceOf(const std::vector<Boundary>& boundaries, AngleBins visible)
   return sum / (static_cast<double>(boundaries.size()) * std::max(1e-9, share(visible)));
 }
 
-/**
- * Strongest perspective |h| of a plane whose small circles have this aspect: sin(tilt) over the focal length in pixels,
- * the latter at least half the image's longer side (a field of view of 90 degrees).
- */
-double largestPerspective(const RingFamily& family, const cv::Size& image_size)
-{
-  const double aspect = family.aspect();
-  return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
-         (.5 * std::max(image_size.width, image_size.height));
-}
-
-/** Whether the colour changes alike across the circle in many directions: a look that needs no edges. */
-bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
-{
-  constexpr int LOOKS = 24;             // directions
-  constexpr double REACH = .08;         // of the radius, to either side
-  constexpr double MIN_REACH = 1.5;     // [px]
-  constexpr float DARK_LEVEL = 48;      // added to the brightness of both sides [grey levels]
-  constexpr float FAINT = .05F;         // relative change that counts half
-  constexpr double MIN_COHERENCE = .4;  // the same targets as without this look, in all development sets
-  const double reach = std::max(MIN_REACH, REACH * radius);
-  const cv::Rect image(cv::Point(), bgr.size());
-  cv::Vec3f sum(0, 0, 0);
-  int count = 0;
-  for (int i = 0; i < LOOKS; ++i)
-  {
-    const double phi = 2 * CV_PI * i / LOOKS;
-    const cv::Point2d direction(std::cos(phi), std::sin(phi));
-    const cv::Point inner = family.toImage((radius - reach) * direction);
-    const cv::Point outer = family.toImage((radius + reach) * direction);
-    if (image.contains(inner) && image.contains(outer))
-    {
-      const cv::Vec3f inside = bgr.at<cv::Vec3b>(inner);
-      const cv::Vec3f outside = bgr.at<cv::Vec3b>(outer);
-      const float brightness =
-          std::max({inside[0], inside[1], inside[2]}) + std::max({outside[0], outside[1], outside[2]}) + DARK_LEVEL;
-      const cv::Vec3f change = (outside - inside) * (2 / brightness);
-      sum += change * (1 / (static_cast<float>(cv::norm(change)) + FAINT));
-      ++count;
-    }
-  }
-  return 2 * count < LOOKS || cv::norm(sum) >= MIN_COHERENCE * count;
-}
 /** How far the outermost boundary lies from where another family has it [px]. */
 double shift(const RingFamily& family, const Rings& rings)
 {
@@ -168,14 +128,12 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
   }
 }
 
-/** Finds out which boundaries there are, inside those of the candidate's rings and outside. */
-bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
+/** Looks for boundaries and refines the rings with them, in turns. */
+bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::vector<RadialEdgel>& edgels)
 {
-  candidate.image_size = bgr.size();
   Rings& rings = candidate.rings;
   const auto profile = std::make_shared<RingProfile>();
   candidate.profile = profile;
-  std::vector<RadialEdgel> edgels;
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
     const double reach = profileReach(rings);
@@ -202,6 +160,51 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   const AngleBins visible = visibleDirections(candidate.boundaries);
   candidate.visible = share(visible);
   candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  return true;
+}
+
+/** Whether the rings are so clear that they would fit better, if their sheet were plane. */
+bool looksBent(const RingCandidate& candidate)
+{
+  const double radius = candidate.rings.radii.back();
+  return (radius > SMALL_RADIUS || candidate.visible > SMALL_VISIBLE) &&
+         candidate.boundaries.size() >= std::size_t{BENT_RINGS} && radius > BENT_RADIUS &&
+         candidate.evidence > BENT_EVIDENCE && candidate.rings.rms > BENT_RMS + BENT_RELATIVE_RMS * radius;
+}
+
+/** Takes the sheet as bent where that explains the rings better. */
+void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::vector<RadialEdgel>& edgels)
+{
+  RingCandidate bent = candidate;
+  bent.ring_count = candidate.ring_count = static_cast<int>(candidate.boundaries.size());
+  const double gain = candidate.rings.radii.back() < SMALL_RADIUS ? SMALL_GAIN
+                      : isTarget(candidate, BENT_RINGS)           ? BENT_GAIN
+                                                                  : NEEDED_GAIN;
+  std::vector<RadialEdgel> bent_edgels;
+  if (bendRings(map, bent.rings) && settle(map, bgr, bent, bent_edgels) &&
+      bent.boundaries.size() >= candidate.boundaries.size() &&
+      bent.evidence * bent.visible > candidate.evidence * candidate.visible - BENT_LOSS &&
+      bent.rings.rms < gain * candidate.rings.rms)
+  {
+    candidate = bent;
+    edgels.swap(bent_edgels);
+  }
+}
+
+/** Finds out which boundaries there are, inside those of the candidate's rings and outside. */
+bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
+{
+  candidate.image_size = bgr.size();
+  Rings& rings = candidate.rings;
+  std::vector<RadialEdgel> edgels;
+  if (!settle(map, bgr, candidate, edgels))
+  {
+    return false;
+  }
+  if (looksBent(candidate))
+  {
+    tryBend(map, bgr, candidate, edgels);
+  }
   if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
   {
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
@@ -221,27 +224,6 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   return true;
 }
 }  // namespace
-
-bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
-{
-  if (!changesAlike(bgr, seed.family, seed.radius + 1.2))
-  {
-    return false;
-  }
-  std::vector<RadialEdgel> edgels;
-  const double radius = seed.radius + 1.2;  // the region ends where its edge begins
-  collectRadialEdgels(map, seed.family, radius * 1.2 + 2, .85, edgels);
-  const AngularSupport support(edgels, radius * 1.2 + 2);
-  const double tolerance = std::max(.9, .03 * radius);
-  double best = 0;
-  const double from = radius * .85 - .6;
-  const int steps = static_cast<int>((radius * 1.2 + 1 - from) / tolerance) + 1;
-  for (int i = 0; i <= steps; ++i)
-  {
-    best = std::max(best, share(support.at(from + i * tolerance, tolerance)));
-  }
-  return best >= .55;
-}
 
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
 {
@@ -263,36 +245,6 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, 
   // Where the edgels do not fit, the profile may still tell.
   refineRings(map, std::max(1.5, KNOWN_GATE * radii.back()), true, rings);
   return complete(map, bgr, candidate);
-}
-
-bool isTarget(const RingCandidate& candidate, int min_rings)
-{
-  const int count = candidate.ring_count;
-  const Rings& rings = candidate.rings;
-  const double radius = rings.radii.back();
-  const double perspective = std::hypot(rings.family.hx, rings.family.hy);
-  if (count < min_rings ||
-      perspective * radius > PERSPECTIVE_SLACK + largestPerspective(rings.family, candidate.image_size) * radius)
-  {
-    return false;
-  }
-  const bool many = count >= MANY_RINGS;
-  const bool fits_well = rings.rms < .1 + .002 * radius;
-  if (radius < SMALL_RADIUS || (radius < LARGE_RADIUS && !many && !fits_well))
-  {
-    return many ? candidate.evidence > .8 && candidate.visible > .85
-                : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
-  }
-  const bool is_clear = many && candidate.evidence > .85 && candidate.visible > .9;
-  const bool fits = rings.rms < .25 + (is_clear ? .004 : .0025) * radius;
-  if (candidate.visible < MOSTLY_VISIBLE)
-  {
-    // Half-hidden targets that fit worse are off by a tenth of a ring and more.
-    return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
-  }
-  const bool fits_closely = rings.rms < .12 + .0006 * radius;
-  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) ||
-         (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 }  // namespace omr

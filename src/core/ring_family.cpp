@@ -2,11 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "bent_point.h"
 
 namespace omr
 {
+namespace
+{
+constexpr int STEPS = 8;            // of Newton's method, from the plane sheet's point
+constexpr double CONVERGED = 1e-6;  // [px]
+constexpr int OUTLINE = 48;         // points of a bent circle
+
+/** The i-th of OUTLINE points. */
+cv::Point2d onCircle(int i, double radius)
+{
+  const double phi = 2 * CV_PI * i / OUTLINE;
+  return {radius * std::cos(phi), radius * std::sin(phi)};
+}
+}  // namespace
+
 cv::Point2d RingFamily::toImage(const cv::Point2d& q) const
 {
+  if (isBent())
+  {
+    return center + BentPoint(*this, q).offset;
+  }
   const double k = 1 / (1 + hx * q.x + hy * q.y);
   return {center.x + (a * q.x + b * q.y) * k, center.y + (b * q.x + d * q.y) * k};
 }
@@ -19,7 +41,36 @@ cv::Point2d RingFamily::toPlane(const cv::Point2d& p) const
   const double m10 = b - dp.y * hx;
   const double m11 = d - dp.y * hy;
   const double det = m00 * m11 - m01 * m10;
-  return {(m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det};
+  cv::Point2d q((m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det);
+  for (int step = 0; isBent() && step < STEPS; ++step)
+  {
+    const BentPoint point(*this, q);
+    const cv::Point2d change = point.jacobian.inv() * (p - center - point.offset);
+    const double size = cv::norm(change);
+    const double longest = .5 / cv::norm(bend);  // half a curvature's radius: the next place is linear so far
+    q += change * std::min(1., longest / std::max(1e-12, size));
+    if (size < CONVERGED)
+    {
+      break;
+    }
+  }
+  return q;
+}
+
+cv::Point2d RingFamily::radiusGradient(const cv::Point2d& q) const
+{
+  const double radius = std::max(1e-6, cv::norm(q));
+  if (isBent())
+  {
+    return BentPoint(*this, q).jacobian.inv().t() * (q / radius);
+  }
+  const cv::Point2d dp = toImage(q) - center;
+  const double m00 = a - dp.x * hx;
+  const double m01 = b - dp.x * hy;
+  const double m10 = b - dp.y * hx;
+  const double m11 = d - dp.y * hy;
+  const double scale = (1 + hx * q.x + hy * q.y) / (radius * (m00 * m11 - m01 * m10));
+  return {scale * (m11 * q.x - m10 * q.y), scale * (m00 * q.y - m01 * q.x)};
 }
 
 double RingFamily::aspect() const
@@ -31,11 +82,27 @@ double RingFamily::aspect() const
 
 cv::Point2d RingFamily::halfBox(double radius) const
 {
-  return {radius * std::hypot(a, b), radius * std::hypot(b, d)};
+  cv::Point2d half(radius * std::hypot(a, b), radius * std::hypot(b, d));
+  for (int i = 0; isBent() && i < OUTLINE; ++i)
+  {
+    const cv::Point2d p = toImage(onCircle(i, radius)) - center;
+    half = {std::max(half.x, std::abs(p.x)), std::max(half.y, std::abs(p.y))};
+  }
+  return half;
 }
 
 cv::RotatedRect RingFamily::ellipse(double radius) const
 {
+  if (isBent())
+  {
+    std::vector<cv::Point2f> outline(OUTLINE);
+    for (int i = 0; i < OUTLINE; ++i)
+    {
+      outline[i] = cv::Point2f(toImage(onCircle(i, radius)));
+    }
+    const cv::RotatedRect fitted = cv::fitEllipse(outline);  // its height is the longer axis
+    return {fitted.center, {fitted.size.height, fitted.size.width}, fitted.angle + 90};
+  }
   // The circle's conic, carried over by the homography [A + c h^T, c; h^T, 1].
   const cv::Matx33d homography(a + center.x * hx, b + center.x * hy, center.x, b + center.y * hx, d + center.y * hy,
                                center.y, hx, hy, 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bent_refinement.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -25,6 +26,7 @@ constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
 constexpr double LARGEST_RMS = 1;             // of the edgels of the first boundary [px]
 constexpr double LARGEST_RELATIVE_RMS = .06;  // more, relative to its radius: perspective, bent sheets
+constexpr double BENT_GATE = .1;              // of the outermost boundary: a bend moves it so far off a circle
 constexpr double CELL = AngularSupport::CELL;
 
 struct Peak
@@ -109,8 +111,9 @@ void thin(std::vector<BoundaryPoint>& points, std::size_t max_points)
   }
 }
 
-bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, std::size_t max_points,
-                Rings& rings)
+/** The edgels near their boundaries, evenly taken. */
+std::vector<BoundaryPoint> pointsOf(const std::vector<RadialEdgel>& edgels, double gate, std::size_t max_points,
+                                    const Rings& rings)
 {
   const std::vector<double> clearance = clearances(rings.radii);
   std::vector<BoundaryPoint> points;
@@ -128,7 +131,15 @@ bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspe
     }
   }
   thin(points, max_points);
-  const double rms = refineFamily(points, perspective, rings.family, rings.radii);
+  return points;
+}
+
+bool refineWith(const std::vector<RadialEdgel>& edgels, double gate, bool perspective, std::size_t max_points,
+                Rings& rings)
+{
+  const std::vector<BoundaryPoint> points = pointsOf(edgels, gate, max_points, rings);
+  const double rms = rings.family.isBent() ? refineBentFamily(points, rings.family, rings.radii)
+                                           : refineFamily(points, perspective, rings.family, rings.radii);
   if (!std::isfinite(rms))
   {
     return false;
@@ -150,6 +161,22 @@ bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
   std::vector<RadialEdgel> edgels;
   collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, FINE_COSINE, edgels);
   return refineWith(edgels, gate, perspective, FINE_POINTS, rings);
+}
+
+bool bendRings(EdgelMap& map, Rings& rings)
+{
+  std::vector<RadialEdgel> edgels;
+  const double gate = BENT_GATE * rings.radii.back();
+  collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, COARSE_COSINE, edgels);
+  Rings bent = rings;
+  if (!findBend(pointsOf(edgels, gate, FINE_POINTS, rings), bent.family, bent.radii) ||
+      !refineRings(map, std::max(1.5, .4 * gate), true, bent) ||
+      !refineRings(map, std::max(1., .012 * bent.radii.back()), true, bent))
+  {
+    return false;
+  }
+  rings = bent;
+  return true;
 }
 
 bool growRings(EdgelMap& map, double reach, Rings& rings)

@@ -24,6 +24,13 @@ struct Rings
 bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings);
 
 /**
+ * Refines rings as those of a sheet that is bent like a pipe.
+ *
+ * @return false, with rings unchanged, when no bend fits.
+ */
+bool bendRings(EdgelMap& map, Rings& rings);
+
+/**
  * Grows a family from the boundaries in its reach outwards and inwards: each new boundary sharpens the family, which
  * then predicts further ones.
  *

@@ -81,6 +81,19 @@ OMR_VECTORIZED void placeSamples(const RingFamily& source, const cv::Point2d& di
   }
 }
 
+/** The same on a bent sheet. */
+void placeBentSamples(const RingFamily& family, const cv::Point2d& direction, double step, int count,
+                      const cv::Size& image, Places& places)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const cv::Point2d p = family.toImage(i * step * direction);
+    places.x[i] = static_cast<float>(p.x);
+    places.y[i] = static_cast<float>(p.y);
+    places.is_inside[i] = p.x >= 0 && p.y >= 0 && p.x < image.width - 1 && p.y < image.height - 1 ? 1 : 0;
+  }
+}
+
 /** The four bytes from an address on. */
 cv::v_float32x4 loadBytes(const uchar* bytes)
 {
@@ -152,7 +165,8 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
   Places places;
   for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
   {
-    placeSamples(family, directions()[angle], profile.step, profile.count, bgr.size(), places);
+    const auto place = family.isBent() ? placeBentSamples : placeSamples;
+    place(family, directions()[angle], profile.step, profile.count, bgr.size(), places);
     cv::Vec3f* grey = &profile.grey[static_cast<std::size_t>(angle) * profile.count];
     LogColor* color = &profile.color[static_cast<std::size_t>(angle) * profile.count];
     for (int i = 0; i < profile.count; ++i)

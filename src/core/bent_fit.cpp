@@ -1,0 +1,240 @@
+#include "bent_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bent_distances.h"
+#include "ring_equations.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int UNKNOWNS = BENT_UNKNOWNS;
+constexpr int MAX_TRIALS = 4;
+constexpr double TUKEY = 3.5;               // of the deviation: full rejection
+constexpr double SMALLEST_DEVIATION = .08;  // [px]
+constexpr double GAUGE_WEIGHT = 1e4;        // holds det A at 1, which the radii would else share
+constexpr double CONVERGED = 1e-3;          // relative change of the cost
+
+// At the outermost circle. What is usual counts as much as one deviation of the points.
+constexpr double USUAL_PERSPECTIVE = .05;
+constexpr double USUAL_ANGLE = .6;  // of the bend [rad]
+constexpr double USUAL_NORMAL = .6;
+constexpr double LARGEST_PERSPECTIVE = .35;
+constexpr double LARGEST_ANGLE = 1.25;
+constexpr double LARGEST_NORMAL = 1.6;
+constexpr double LARGEST_ASPECT = 3.5;
+
+using Unknowns = std::array<double, UNKNOWNS>;
+
+Unknowns valuesOf(const RingFamily& f)
+{
+  return {f.center.x, f.center.y, f.a, f.b, f.d, f.hx, f.hy, f.bend.x, f.bend.y, f.normal.x, f.normal.y, f.hz};
+}
+
+constexpr int FIRST_USUAL = 5;  // of the unknowns that have a usual size
+
+Unknowns usualSizes(double radius)
+{
+  const double h = USUAL_PERSPECTIVE / radius;
+  const double k = USUAL_ANGLE / radius;
+  return {0, 0, 0, 0, 0, h, h, k, k, USUAL_NORMAL, USUAL_NORMAL, h};
+}
+
+bool isPlausible(const RingFamily& family, const std::vector<double>& radii)
+{
+  double inner = 0;
+  for (const double radius : radii)
+  {
+    if (!(radius > inner))
+    {
+      return false;
+    }
+    inner = radius;
+  }
+  return std::hypot(family.hx, family.hy) * inner < LARGEST_PERSPECTIVE &&
+         std::abs(family.hz) * inner < LARGEST_PERSPECTIVE && cv::norm(family.bend) * inner < LARGEST_ANGLE &&
+         cv::norm(family.normal) < LARGEST_NORMAL && family.aspect() < LARGEST_ASPECT && family.isBent();
+}
+}  // namespace
+
+BentFit::BentFit(const std::vector<BoundaryPoint>& points, const RingFamily& family, std::vector<double> radii)
+    : points_(points), family_(family), radii_(std::move(radii))
+{
+  measureBent(points_, family_, radii_, places_, errors_);
+}
+
+bool BentFit::run(int max_steps)
+{
+  double damping = 1e-3;
+  for (int step = 0; step < max_steps; ++step)
+  {
+    estimateDeviation();
+    build();
+    const double before = cost(family_, radii_, errors_);
+    double after = before;
+    bool accepted = false;
+    for (int trial = 0; trial < MAX_TRIALS && !accepted; ++trial)
+    {
+      RingFamily next = family_;
+      std::vector<double> next_radii = radii_;
+      std::vector<cv::Point2d> next_places;
+      std::vector<double> next_errors;
+      if (solve(damping, next, next_radii))
+      {
+        measureBent(points_, next, next_radii, next_places, next_errors);
+        after = cost(next, next_radii, next_errors);
+        accepted = after <= before;
+      }
+      if (accepted)
+      {
+        family_ = next;
+        radii_ = next_radii;
+        places_.swap(next_places);
+        errors_.swap(next_errors);
+      }
+      damping = accepted ? std::max(1e-7, damping * .1) : damping * 10;
+    }
+    if (!accepted || before - after < CONVERGED * before)
+    {
+      break;
+    }
+  }
+  return isPlausible(family_, radii_);
+}
+
+double BentFit::loss(double limit) const
+{
+  return tukeyLoss(errors_, limit) / static_cast<double>(errors_.size());
+}
+
+double BentFit::rms() const
+{
+  double sum = 0;
+  double weight_sum = 0;
+  for (const double error : errors_)
+  {
+    const double weight = tukeyWeight(error, limit_);
+    sum += weight * error * error;
+    weight_sum += weight;
+  }
+  return std::sqrt(sum / std::max(1e-9, weight_sum));
+}
+
+void BentFit::estimateDeviation()
+{
+  std::vector<double> sizes(errors_.size());
+  std::transform(errors_.begin(), errors_.end(), sizes.begin(), [](double error) { return std::abs(error); });
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  limit_ = TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
+}
+
+double BentFit::cost(const RingFamily& family, const std::vector<double>& radii,
+                     const std::vector<double>& errors) const
+{
+  const Unknowns sizes = usualSizes(radii.back());
+  const Unknowns values = valuesOf(family);
+  double prior = 0;
+  for (int i = FIRST_USUAL; i < UNKNOWNS; ++i)
+  {
+    prior += (values[i] / sizes[i]) * (values[i] / sizes[i]);
+  }
+  return tukeyLoss(errors, limit_) + 3 * prior / (TUKEY * TUKEY);
+}
+
+void BentFit::build()
+{
+  const int size = UNKNOWNS + static_cast<int>(radii_.size());
+  normal_ = cv::Mat::zeros(size, size, CV_64F);
+  right_ = cv::Mat::zeros(size, 1, CV_64F);
+  for (std::size_t p = 0; p < points_.size(); ++p)
+  {
+    const double weight = tukeyWeight(errors_[p], limit_);
+    if (weight <= 0)
+    {
+      continue;
+    }
+    const BentDerivative row = differentiateBent(places_[p], family_, radii_.back());
+    for (int i = 0; i <= UNKNOWNS; ++i)
+    {
+      const int at = i < UNKNOWNS ? i : UNKNOWNS + points_[p].ring;
+      right_.at<double>(at) -= weight * row[i] * errors_[p];
+      for (int j = 0; j <= UNKNOWNS; ++j)
+      {
+        normal_.at<double>(at, j < UNKNOWNS ? j : UNKNOWNS + points_[p].ring) += weight * row[i] * row[j];
+      }
+    }
+  }
+  addGauge();
+  addPrior();
+}
+
+void BentFit::addGauge()
+{
+  const std::array<double, 3> det = {family_.d, -2 * family_.b, family_.a};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      normal_.at<double>(2 + i, 2 + j) += GAUGE_WEIGHT * det[i] * det[j];
+    }
+  }
+}
+
+void BentFit::addPrior()
+{
+  const Unknowns sizes = usualSizes(radii_.back());
+  const Unknowns values = valuesOf(family_);
+  for (int i = FIRST_USUAL; i < UNKNOWNS; ++i)
+  {
+    const double prior = limit_ * limit_ / (TUKEY * TUKEY * sizes[i] * sizes[i]);
+    normal_.at<double>(i, i) += prior;
+    right_.at<double>(i) -= prior * values[i];
+  }
+}
+
+bool BentFit::solve(double damping, RingFamily& family, std::vector<double>& radii) const
+{
+  cv::Mat damped = normal_.clone();
+  for (int i = 0; i < damped.rows; ++i)
+  {
+    damped.at<double>(i, i) = damped.at<double>(i, i) * (1 + damping) + 1e-9;
+  }
+  cv::Mat solution;
+  if (!cv::solve(damped, right_, solution, cv::DECOMP_CHOLESKY))
+  {
+    return false;
+  }
+  const double* step = solution.ptr<double>();
+  family.center += cv::Point2d(step[0], step[1]);
+  family.a += step[2];
+  family.b += step[3];
+  family.d += step[4];
+  family.hx += step[5];
+  family.hy += step[6];
+  family.bend += cv::Point2d(step[7], step[8]);
+  family.normal += cv::Point2d(step[9], step[10]);
+  family.hz += step[11];
+  const double det = family.a * family.d - family.b * family.b;
+  if (!(det > .25 && det < 4 && family.a > 0))
+  {
+    return false;
+  }
+  const double scale = std::sqrt(det);
+  for (double* value : {&family.a, &family.b, &family.d, &family.hx, &family.hy, &family.hz, &family.bend.x,
+                        &family.bend.y, &family.normal.x, &family.normal.y})
+  {
+    *value /= scale;
+  }
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    radii[k] = (radii[k] + step[UNKNOWNS + static_cast<int>(k)]) * scale;
+  }
+  return isPlausible(family, radii);
+}
+
+}  // namespace omr

@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cmath>
+
+#include "ring_candidate.h"
+
+namespace omr
+{
+namespace
+{
+// The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
+// clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
+constexpr int MANY_RINGS = 4;
+constexpr double SMALL_RADIUS = 15;       // [px]
+constexpr double LARGE_RADIUS = 25;       // [px]
+constexpr double SMALLEST_DISK = 2;       // radius [px]
+constexpr double MOSTLY_VISIBLE = .8;     // of the directions
+constexpr double LEAST_VISIBLE = .66;     // round arches show .5 to .65
+constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
+
+/**
+ * Strongest perspective |h| of a plane whose small circles have this aspect: sin(tilt) over the focal length in pixels,
+ * the latter at least half the image's longer side (a field of view of 90 degrees).
+ */
+double largestPerspective(const RingFamily& family, const cv::Size& image_size)
+{
+  const double aspect = family.aspect();
+  return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
+         (.5 * std::max(image_size.width, image_size.height));
+}
+}  // namespace
+
+bool isTarget(const RingCandidate& candidate, int min_rings)
+{
+  const int count = candidate.ring_count;
+  const Rings& rings = candidate.rings;
+  const double radius = rings.radii.back();
+  const double perspective = std::hypot(rings.family.hx, rings.family.hy);
+  if (count < min_rings ||
+      perspective * radius > PERSPECTIVE_SLACK + largestPerspective(rings.family, candidate.image_size) * radius)
+  {
+    return false;
+  }
+  const bool many = count >= MANY_RINGS;
+  const bool fits_well = rings.rms < .1 + .002 * radius;
+  if (radius < SMALL_RADIUS || (radius < LARGE_RADIUS && !many && !fits_well))
+  {
+    return many ? candidate.evidence > .8 && candidate.visible > .85
+                : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
+  }
+  const bool is_clear = many && candidate.evidence > .85 && candidate.visible > .9;
+  const bool fits = rings.rms < .25 + (is_clear ? .004 : .0025) * radius;
+  if (candidate.visible < MOSTLY_VISIBLE)
+  {
+    // Half-hidden targets that fit worse are off by a tenth of a ring and more.
+    return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
+  }
+  const bool fits_closely = rings.rms < .12 + .0006 * radius;
+  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) ||
+         (fits && candidate.evidence > (many ? .74 : .8));
+}
+
+}  // namespace omr
