@@ -1,26 +1,16 @@
 // Colour Haar features of sliding windows (paper, section 4.5). What the features are, and a plain version of them:
 // include/outdoor_omr/haar_features.h.
 
-#include "geometry.cl"
+#include "window.cl"
 
 /** The sizes of haar_features.h. */
-#define WINDOW_CELLS 8
-#define WINDOW_STRIDE 2
 #define SHIFTS 40
-#define BANDS 5
 #define LEAST_CONTRAST 20
 #define OCTAVE 256.0f
-#define FIRST_CENTER 5
-#define LAST_CENTER 9
-#define BEST 3
 
 /** Features, a one for the bias, and zeros up to a multiple of 8. */
 #define INPUTS 152
 #define FEATURES 148
-
-/** Rows of a window in private memory, with room for what a shifted load reads beside them. */
-#define ROW_STEP 16
-#define ROW_START 4
 
 /** 8 cells at any address in one load. */
 typedef struct __attribute__((packed))
@@ -28,19 +18,9 @@ typedef struct __attribute__((packed))
   short8 cells;
 } Shorts8;
 
-INLINE int8 magnitude(int8 value)
-{
-  return value > -value ? value : -value;
-}
-
 INLINE int4 magnitude4(int4 value)
 {
   return value > -value ? value : -value;
-}
-
-INLINE int total(int8 v)
-{
-  return v.s0 + v.s1 + v.s2 + v.s3 + v.s4 + v.s5 + v.s6 + v.s7;
 }
 
 /** Haar responses of a row of four blocks. */
@@ -63,79 +43,13 @@ INLINE int8 rowOf(global const short* cells, int cells_across, int y)
   return convert_int8(((global const Shorts8*)(cells + (size_t)y * cells_across))->cells);
 }
 
-/** The lanes of a row that have a partner so many cells to the right (negative: to the left). */
-INLINE int8 partners(int shift)
-{
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7) + shift;
-  return lane >= 0 && lane < WINDOW_CELLS;
-}
-
-/** Mean difference from the cells (dx, dy) further. @param rows of the window: ROW_STEP apart, from ROW_START. */
-INLINE float meanDifference(const int* rows, int dx, int dy)
-{
-  int8 sum = 0;
-  for (int y = max(0, -dy); y < WINDOW_CELLS - max(0, dy); ++y)
-  {
-    const int* at = rows + y * ROW_STEP + ROW_START;
-    sum += magnitude(vload8(0, at + dy * ROW_STEP + dx) - vload8(0, at));
-  }
-  return (float)total(sum & partners(dx)) / (float)((WINDOW_CELLS - dx) * (WINDOW_CELLS - (int)abs(dy)));
-}
-
-INLINE void keepSmallest(float* smallest, float value)
-{
-  for (int i = 0; i < BEST; ++i)
-  {
-    const float kept = smallest[i];
-    smallest[i] = min(kept, value);
-    value = max(kept, value);
-  }
-}
-
-/** The smallest differences from the window turned by 180 degrees, and from the negative of it. */
-INLINE void symmetries(const int* rows, int mean, float* same, float* negative)
-{
-  int turned[WINDOW_CELLS * ROW_STEP];
-  for (int y = 0; y < WINDOW_CELLS; ++y)
-  {
-    for (int x = 0; x < ROW_STEP; ++x)
-    {
-      turned[y * ROW_STEP + x] = 0;
-    }
-    vstore8(vload8(0, rows + y * ROW_STEP + ROW_START).s76543210, 0, turned + y * ROW_STEP + ROW_START);
-  }
-  for (int i = 0; i < BEST; ++i)
-  {
-    same[i] = negative[i] = 1e9f;
-  }
-  for (int cy = FIRST_CENTER; cy <= LAST_CENTER; ++cy)
-  {
-    const int first = max(0, cy - 7);
-    const int last = min(7, cy);
-    for (int cx = FIRST_CENTER; cx <= LAST_CENTER; ++cx)
-    {
-      int8 difference = 0;
-      int8 sum = 0;
-      for (int y = first; y <= last; ++y)
-      {
-        const int8 here = vload8(0, rows + y * ROW_STEP + ROW_START);
-        const int8 there = vload8(0, turned + (cy - y) * ROW_STEP + ROW_START + 7 - cx);
-        difference += magnitude(here - there);
-        sum += magnitude(here + there - 2 * mean);
-      }
-      const int8 inside = partners(7 - cx);
-      const float count = (float)((last - first + 1) * (WINDOW_CELLS - (int)abs(7 - cx)));
-      keepSmallest(same, (float)total(difference & inside) / count);
-      keepSmallest(negative, (float)total(sum & inside) / count);
-    }
-  }
-}
-
 /** By exchanges without branches: a branch on the values costs more than it saves. */
 INLINE void sortAscending(float* values, int count)
 {
+#pragma unroll
   for (int pass = 0; pass < count; ++pass)
   {
+#pragma unroll
     for (int i = pass & 1; i + 1 < count; i += 2)
     {
       const float lower = min(values[i], values[i + 1]);
@@ -177,25 +91,34 @@ INLINE int contrastOfHalf(const int8* rows)
   return min(left, right);
 }
 
-/** What is looked up, in one buffer: shifts by length, firsts of the bands, then crossings of four shifts. */
+/** What is looked up, in one buffer: shifts by length, then crossings of four shifts. */
 #define BY_LENGTH 0
-#define FIRST_OF_BAND 40
-#define CROSSINGS 48
+#define CROSSINGS 40
 
+/** Of all crossings the largest one, searched in four rows, which need not wait for each other. */
 INLINE float largestCrossing(const float* differences, global const uchar* tables, int crossings)
 {
-  float along = 0;
-  float diagonal = 1;
-  for (int i = 0; i < crossings; ++i)
+  float along[4] = {0, 0, 0, 0};
+  float diagonal[4] = {1, 1, 1, 1};
+  for (int i = 0; i < crossings; i += 4)
   {
-    global const uchar* shifts = tables + CROSSINGS + 4 * i;
-    const float a = differences[shifts[0]] + differences[shifts[1]];
-    const float d = differences[shifts[2]] + differences[shifts[3]];
-    const bool larger = a * diagonal > along * d;
-    along = larger ? a : along;
-    diagonal = larger ? d : diagonal;
+#pragma unroll
+    for (int k = 0; k < 4; ++k)
+    {
+      global const uchar* shifts = tables + CROSSINGS + 4 * min(i + k, crossings - 1);
+      const float a = differences[shifts[0]] + differences[shifts[1]];
+      const float d = differences[shifts[2]] + differences[shifts[3]];
+      const bool larger = a * diagonal[k] > along[k] * d;
+      along[k] = larger ? a : along[k];
+      diagonal[k] = larger ? d : diagonal[k];
+    }
   }
-  return (along - diagonal) / (along + diagonal);
+  float largest = -1;
+  for (int k = 0; k < 4; ++k)
+  {
+    largest = max(largest, (along[k] - diagonal[k]) / (along[k] + diagonal[k]));
+  }
+  return largest;
 }
 
 /**
@@ -215,15 +138,16 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
   {
     return false;
   }
-  int rows[WINDOW_CELLS * ROW_STEP];
+  short padded[PADDED];
+  short* cells = padded + PADDING;
+  for (int i = 0; i < PADDED; ++i)
+  {
+    padded[i] = 0;
+  }
   int8 sum = 0;
   for (int y = 0; y < WINDOW_CELLS; ++y)
   {
-    for (int x = 0; x < ROW_STEP; ++x)
-    {
-      rows[y * ROW_STEP + x] = 0;
-    }
-    vstore8(light[y], 0, rows + y * ROW_STEP + ROW_START);
+    vstore8(convert_short8(light[y]), y, cells);
     sum += light[y];
   }
   const int mean = total(sum) / (WINDOW_CELLS * WINDOW_CELLS);
@@ -235,7 +159,7 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
   {
     for (int dy = dx == 0 ? 1 : -4; dy <= 4; ++dy)
     {
-      differences[shift] = meanDifference(rows, dx, dy);
+      differences[shift] = meanDifference(cells, dx, dy);
       contrast += differences[shift++];
     }
   }
@@ -244,11 +168,12 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
   {
     features[i] = differences[tables[BY_LENGTH + i]] / contrast - 1;
   }
-  for (int band = 0; band < BANDS; ++band)
-  {
-    const int first = tables[FIRST_OF_BAND + band];
-    sortAscending(features + first, tables[FIRST_OF_BAND + band + 1] - first);
-  }
+  // Numbers that the compiler knows, so that it sorts in registers; the bands of haarTables().
+  sortAscending(features, 4);
+  sortAscending(features + 4, 8);
+  sortAscending(features + 12, 10);
+  sortAscending(features + 22, 12);
+  sortAscending(features + 34, 6);
   float* next = features + SHIFTS;
   *next++ = largestCrossing(differences, tables, crossings);
   *next++ = contrast / OCTAVE;
@@ -266,7 +191,7 @@ INLINE bool haarFeatures(global const short* window, int cells_across, size_t pl
   *next++ = (dot(variance.lo, one.lo) + dot(variance.hi, one.hi)) / (WINDOW_CELLS * WINDOW_CELLS);
   float same[BEST];
   float negative[BEST];
-  symmetries(rows, mean, same, negative);
+  symmetries(cells, mean, same, negative);
   for (int i = 0; i < BEST; ++i)
   {
     *next++ = same[i] / contrast;

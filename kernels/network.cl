@@ -23,7 +23,8 @@ INLINE float16 activation(float16 x)
   return 1 - 2 / (1 + series * as_float16((convert_int16(n) + 127) << 23));
 }
 
-/** @param weights of each hidden unit: INPUTS, then of each output: one a hidden unit, and the bias; padded to 16. */
+/** @param weights of 16 hidden units at a time a row for each of the INPUTS, then of each output: one a hidden unit, and the
+ * bias; both padded to 16. */
 INLINE float2 networkScores(const float* features, global const float* weights, int hidden)
 {
   float units[MAX_HIDDEN + 16];
@@ -32,16 +33,20 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
   {
     units[unit] = 0;
   }
-  for (int unit = 0; unit < hidden; ++unit)
+  const int groups = (hidden + 15) / 16;
+  for (int group = 0; group < groups; ++group)
   {
-    global const float* row = weights + unit * INPUTS;
-    float8 sum = 0;
-    for (int i = 0; i < INPUTS / 8; ++i)
+    global const float* of_group = weights + group * INPUTS * 16;
+    float16 sums[4] = {0, 0, 0, 0};  // which need not wait for each other
+    for (int i = 0; i < INPUTS; i += 4)
     {
-      sum += vload8(i, row) * vload8(i, features);
+#pragma unroll
+      for (int k = 0; k < 4; ++k)
+      {
+        sums[k] = mad(features[i + k], vload16(i + k, of_group), sums[k]);
+      }
     }
-    const float4 half_sum = sum.lo + sum.hi;
-    units[unit] = half_sum.x + half_sum.y + half_sum.z + half_sum.w;
+    vstore16((sums[0] + sums[1]) + (sums[2] + sums[3]), group, units);
   }
   for (int i = 0; i < padded / 16; ++i)
   {
@@ -50,7 +55,7 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
   units[hidden] = 1;
   float8 checkerboard = 0;
   float8 target = 0;
-  global const float* outputs = weights + hidden * INPUTS;
+  global const float* outputs = weights + groups * INPUTS * 16;
   for (int i = 0; i < padded / 8; ++i)
   {
     checkerboard += vload8(i, outputs) * vload8(i, units);

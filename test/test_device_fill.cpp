@@ -2,19 +2,16 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <map>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "compare.h"
-#include "device_fill.h"
+#include "device_fixture.h"
 #include "edge_patterns.h"
 #include "outdoor_omr/reference_fill.h"
 #include "scene.h"
 
 using omr::AreaWindow;
-using omr::DeviceFill;
 using omr::FillMethod;
 using omr::Filter;
 using omr::Geometry;
@@ -56,27 +53,9 @@ void expectSameSums(const std::vector<RegionSums>& expected, const std::vector<R
 }
 
 /** The steps on the device against the reference, with every region in the window. */
-class DeviceFillTest : public testing::TestWithParam<Geometry>
+class DeviceFillTest : public omr::test::DeviceTest
 {
  protected:
-  void SetUp() override
-  {
-    const std::vector<omr::Device> devices = omr::selectDevices("auto");
-    ASSERT_FALSE(devices.empty()) << "no OpenCL device: scripts/setup installs pocl-opencl-icd, which is one";
-    auto& fill = fills()[GetParam()];  // built once: the kernels take seconds to compile
-    if (!fill)
-    {
-      fill = std::make_unique<DeviceFill>(devices.front(), GetParam());
-    }
-    fill_ = fill.get();
-  }
-
-  static std::map<Geometry, std::unique_ptr<DeviceFill>>& fills()
-  {
-    static std::map<Geometry, std::unique_ptr<DeviceFill>> all;
-    return all;
-  }
-
   /** Labels and sums of an edge mask, by both methods. */
   void checkEdges(const cv::Mat& edges)
   {
@@ -125,13 +104,11 @@ class DeviceFillTest : public testing::TestWithParam<Geometry>
     EXPECT_TRUE(equal(expected_labels, labels));
     expectSameSums(expected, sums);
   }
-
-  DeviceFill* fill_ = nullptr;
 };
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(Geometries, DeviceFillTest, testing::Values(Geometry::strips, Geometry::words),
-                         [](const auto& info) { return info.param == Geometry::strips ? "strips" : "words"; });
+                         omr::test::geometryName);
 
 TEST_P(DeviceFillTest, everyFilterOnAScene)
 {

@@ -1,16 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <memory>
 #include <opencv2/imgproc.hpp>
 
 #include "compare.h"
-#include "device_fill.h"
+#include "device_fixture.h"
 #include "outdoor_omr/window_scores.h"
 #include "scene.h"
 
-using omr::DeviceFill;
 using omr::Geometry;
 using omr::MarkerScores;
 
@@ -45,27 +42,9 @@ cv::Mat everySecond(const cv::Mat& integral)
 }
 
 /** Preliminary detection on the device against the plain one. */
-class DeviceWindowsTest : public testing::TestWithParam<Geometry>
+class DeviceWindowsTest : public omr::test::DeviceTest
 {
  protected:
-  void SetUp() override
-  {
-    const std::vector<omr::Device> devices = omr::selectDevices("auto");
-    ASSERT_FALSE(devices.empty()) << "no OpenCL device: scripts/setup installs pocl-opencl-icd, which is one";
-    auto& fill = fills()[GetParam()];  // built once: the kernels take seconds to compile
-    if (!fill)
-    {
-      fill = std::make_unique<DeviceFill>(devices.front(), GetParam());
-    }
-    fill_ = fill.get();
-  }
-
-  static std::map<Geometry, std::unique_ptr<DeviceFill>>& fills()
-  {
-    static std::map<Geometry, std::unique_ptr<DeviceFill>> all;
-    return all;
-  }
-
   std::vector<MarkerScores> scores(const cv::Mat& image, const omr::MarkerNetwork& network)
   {
     std::vector<MarkerScores> scores;
@@ -86,8 +65,6 @@ class DeviceWindowsTest : public testing::TestWithParam<Geometry>
       ASSERT_NEAR(expected[i][1], actual[i][1], 1e-5) << "window " << i;
     }
   }
-
-  DeviceFill* fill_ = nullptr;
 };
 }  // namespace
 
@@ -162,7 +139,7 @@ TEST_P(DeviceWindowsTest, aPlainWindowHasNoScore)
 }
 
 INSTANTIATE_TEST_SUITE_P(Geometries, DeviceWindowsTest, testing::Values(Geometry::strips, Geometry::words),
-                         [](const auto& info) { return info.param == Geometry::strips ? "strips" : "words"; });
+                         omr::test::geometryName);
 
 int main(int argc, char** argv)
 {

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/haar_features.h"
+#include "outdoor_omr/window_scores.h"
 
 using omr::HAAR_FEATURES;
 
@@ -198,6 +199,29 @@ TEST(HaarGate, whatHasFeaturesHasInputs)
   }
   EXPECT_GT(with_features, 50);
   EXPECT_LT(with_features, 450);
+}
+
+TEST(WindowScores, theNeighboursOfALikelyWindowAreLookedAtToo)
+{
+  cv::Mat image(64, 64, CV_8UC3);
+  cv::randu(image, 0, 256);
+  omr::MarkerNetwork network;
+  network.hidden = 1;
+  network.weights.assign(HAAR_FEATURES + 1 + 2 * 2, 0);
+  for (const float score : {omr::FOLLOWED_SCORE + .01F, omr::FOLLOWED_SCORE - .01F})
+  {
+    for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
+    {
+      network.weights[HAAR_FEATURES + 1 + 2 * kind] = 2 * std::atanh(score);  // the bias of the output
+    }
+    const std::vector<omr::MarkerScores> scores = omr::windowScores(image, network);
+    const cv::Size grid = omr::windowGrid(image.size(), 0);
+    for (int i = 0; i < grid.area(); ++i)
+    {
+      const bool looked = score > omr::FOLLOWED_SCORE || (i % grid.width % 2 == 0 && i / grid.width % 2 == 0);
+      EXPECT_NEAR(looked ? score : -1, scores[i][0], 1e-5) << i;
+    }
+  }
 }
 
 int main(int argc, char** argv)

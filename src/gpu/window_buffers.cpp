@@ -10,7 +10,6 @@ namespace omr
 namespace
 {
 constexpr std::size_t INPUTS = 152;  // HAAR_FEATURES, the bias, and zeros up to a multiple of 8
-constexpr std::size_t FIRST_CROSSING = 48;
 constexpr std::size_t GATE_UNITS = MAX_GATE_UNITS;
 constexpr std::size_t BLOCK_PLANES = 6;
 constexpr std::size_t READ_BEYOND = 32;  // blocks
@@ -40,9 +39,7 @@ std::size_t WindowBuffers::bytes() const
 std::vector<cl_uchar> packTables()
 {
   const HaarTables& tables = haarTables();
-  std::vector<cl_uchar> packed(FIRST_CROSSING, 0);
-  std::copy(tables.by_length.begin(), tables.by_length.end(), packed.begin());
-  std::copy(tables.bands.begin(), tables.bands.end(), packed.begin() + HAAR_SHIFTS);
+  std::vector<cl_uchar> packed(tables.by_length.begin(), tables.by_length.end());
   for (const HaarTables::Crossing& crossing : tables.crossings)
   {
     packed.insert(packed.end(), {crossing.first, crossing.second, crossing.sum, crossing.difference});
@@ -53,20 +50,23 @@ std::vector<cl_uchar> packTables()
 std::vector<cl_float> packWeights(const MarkerNetwork& network)
 {
   const std::size_t padded = (network.hidden + 16) / 16 * 16;  // the hidden units and the bias
-  std::vector<cl_float> packed(network.hidden * INPUTS + MARKER_KINDS * padded, 0);
+  const std::size_t outputs = (network.hidden + 15) / 16 * 16 * INPUTS;
+  std::vector<cl_float> packed(outputs + MARKER_KINDS * padded, 0);
   const float* weights = network.weights.data();
-  const auto pack = [&weights](cl_float* to, std::size_t inputs) {
-    to[inputs] = *weights++;
-    std::copy(weights, weights + inputs, to);
-    weights += inputs;
+  const auto pack = [&weights](cl_float* to, std::size_t inputs, std::size_t step) {
+    to[inputs * step] = *weights++;
+    for (std::size_t i = 0; i < inputs; ++i)
+    {
+      to[i * step] = *weights++;
+    }
   };
   for (int unit = 0; unit < network.hidden; ++unit)
   {
-    pack(packed.data() + unit * INPUTS, HAAR_FEATURES);
+    pack(packed.data() + unit / 16 * 16 * INPUTS + unit % 16, HAAR_FEATURES, 16);
   }
   for (int kind = 0; kind < MARKER_KINDS; ++kind)
   {
-    pack(packed.data() + network.hidden * INPUTS + kind * padded, network.hidden);
+    pack(packed.data() + outputs + kind * padded, network.hidden, 1);
   }
   return packed;
 }

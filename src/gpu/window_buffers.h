@@ -32,7 +32,7 @@ struct WindowBuffers
   std::size_t bytes() const;
 };
 
-/** The lookup tables of haar.cl: 40 shifts by length, firsts of the bands, crossings. */
+/** The lookup tables of haar.cl: 40 shifts by length, crossings. */
 std::vector<cl_uchar> packTables();
 
 /** A network's weights in the order of network.cl. */
