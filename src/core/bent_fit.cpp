@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bent_distances.h"
-#include "ring_equations.h"
+#include "tukey.h"
 
 namespace omr
 {
@@ -14,10 +14,8 @@ namespace
 {
 constexpr int UNKNOWNS = BENT_UNKNOWNS;
 constexpr int MAX_TRIALS = 4;
-constexpr double TUKEY = 3.5;               // of the deviation: full rejection
-constexpr double SMALLEST_DEVIATION = .08;  // [px]
-constexpr double GAUGE_WEIGHT = 1e4;        // holds det A at 1, which the radii would else share
-constexpr double CONVERGED = 1e-3;          // relative change of the cost
+constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
+constexpr double CONVERGED = 1e-3;    // relative change of the cost
 
 // At the outermost circle. What is usual counts as much as one deviation of the points.
 constexpr double USUAL_PERSPECTIVE = .05;
@@ -70,9 +68,10 @@ BentFit::BentFit(const std::vector<BoundaryPoint>& points, const RingFamily& fam
 bool BentFit::run(int max_steps)
 {
   double damping = 1e-3;
+  std::vector<double> sizes;
   for (int step = 0; step < max_steps; ++step)
   {
-    estimateDeviation();
+    limit_ = tukeyLimit(errors_, sizes);
     build();
     const double before = cost(family_, radii_, errors_);
     double after = before;
@@ -113,24 +112,7 @@ double BentFit::loss(double limit) const
 
 double BentFit::rms() const
 {
-  double sum = 0;
-  double weight_sum = 0;
-  for (const double error : errors_)
-  {
-    const double weight = tukeyWeight(error, limit_);
-    sum += weight * error * error;
-    weight_sum += weight;
-  }
-  return std::sqrt(sum / std::max(1e-9, weight_sum));
-}
-
-void BentFit::estimateDeviation()
-{
-  std::vector<double> sizes(errors_.size());
-  std::transform(errors_.begin(), errors_.end(), sizes.begin(), [](double error) { return std::abs(error); });
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  limit_ = TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
+  return tukeyRms(errors_, limit_);
 }
 
 double BentFit::cost(const RingFamily& family, const std::vector<double>& radii,

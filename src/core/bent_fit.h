@@ -35,7 +35,6 @@ class BentFit
   double rms() const;
 
  private:
-  void estimateDeviation();
   double cost(const RingFamily& family, const std::vector<double>& radii, const std::vector<double>& errors) const;
   void build();
   void addGauge();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tukey.h"
 #include "vectorized.h"
 
 namespace omr
@@ -9,7 +10,6 @@ namespace omr
 namespace
 {
 constexpr int UNKNOWNS = FAMILY_UNKNOWNS;
-constexpr std::size_t CHUNK = 64;
 
 /** The sums of the equations, in rows as long as vectors like. */
 struct Sums
@@ -54,41 +54,7 @@ OMR_VECTORIZED void addPoints(const CircleDistances& points, const std::vector<C
     sums.radius_right[points.ring(p)] -= weighted[UNKNOWNS] * error;
   }
 }
-
-OMR_VECTORIZED void lossesOf(const double* errors, std::size_t size, double limit, double* losses)
-{
-  for (std::size_t i = 0; i < size; ++i)
-  {
-    const double t = errors[i] / limit;
-    const double inside = 1 - t * t;
-    const double loss = 1 - inside * inside * inside;
-    losses[i] = inside <= 0 ? 1 : loss;
-  }
-}
 }  // namespace
-
-double tukeyWeight(double error, double limit)
-{
-  const double t = error / limit;
-  const double inside = std::max(0., 1 - t * t);
-  return inside * inside;
-}
-
-double tukeyLoss(const std::vector<double>& errors, double limit)
-{
-  std::array<double, CHUNK> losses;
-  double sum = 0;
-  for (std::size_t first = 0; first < errors.size(); first += CHUNK)
-  {
-    const std::size_t size = std::min(CHUNK, errors.size() - first);
-    lossesOf(errors.data() + first, size, limit, losses.data());
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      sum += losses[i];
-    }
-  }
-  return sum;
-}
 
 RingEquations sumEquations(const CircleDistances& points, const std::vector<CircleDerivative>& derivatives,
                            const std::vector<double>& errors, double limit)

@@ -28,12 +28,6 @@ struct RingEquations
              std::array<double, MAX_BOUNDARIES>& radius_step) const;
 };
 
-/** Tukey's weight [0, 1] of a point with this error. */
-double tukeyWeight(double error, double limit);
-
-/** Sum of Tukey's loss of the points, which is 3 (e / limit)^2 for small errors e and 1 from the limit on. */
-double tukeyLoss(const std::vector<double>& errors, double limit);
-
 /** The equations of the points, weighted by Tukey. */
 RingEquations sumEquations(const CircleDistances& points, const std::vector<CircleDerivative>& derivatives,
                            const std::vector<double>& errors, double limit);

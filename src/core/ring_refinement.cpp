@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ring_equations.h"
+#include "tukey.h"
 
 namespace omr
 {
@@ -13,8 +14,6 @@ namespace
 {
 constexpr int MAX_STEPS = 8;
 constexpr int MAX_TRIALS = 4;
-constexpr double TUKEY = 3.5;                // of the deviation: full rejection
-constexpr double SMALLEST_DEVIATION = 0.08;  // [px]
 // Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives 0.05;
 // 0.35 is beyond what a marker can be read at.
 constexpr double USUAL_PERSPECTIVE = 0.05;
@@ -36,7 +35,7 @@ class Fit
     points_.measure(family, radii, errors_);
     for (int step = 0; step < MAX_STEPS; ++step)
     {
-      estimateDeviation();
+      limit_ = tukeyLimit(errors_, sizes_);
       const RingEquations equations = build(family, radii);
       const double before = cost(family, radii, errors_);
       double after = before;
@@ -70,27 +69,10 @@ class Fit
   /** RMS distance of the points that count [px]. */
   double rms() const
   {
-    double sum = 0;
-    double weight_sum = 0;
-    for (const double error : errors_)
-    {
-      const double weight = tukeyWeight(error, limit_);
-      sum += weight * error * error;
-      weight_sum += weight;
-    }
-    return std::sqrt(sum / std::max(1e-9, weight_sum));
+    return tukeyRms(errors_, limit_);
   }
 
  private:
-  void estimateDeviation()
-  {
-    sizes_.resize(errors_.size());
-    std::transform(errors_.begin(), errors_.end(), sizes_.begin(), [](double error) { return std::abs(error); });
-    const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
-    std::nth_element(sizes_.begin(), middle, sizes_.end());
-    limit_ = TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
-  }
-
   /** Weight of the prior on h: one deviation of the points counts as much as the usual perspective. */
   double priorWeight(const std::vector<double>& radii) const
   {
