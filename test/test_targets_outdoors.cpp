@@ -36,6 +36,40 @@ TEST(Targets, partlyHidden)
   expectFound(scene, "RWPGB", .3);
 }
 
+TEST(Targets, aNoEntrySignIsNone)
+{
+  // Its bar has a middle from which the colour steps outwards, in most directions, but hardly an edge along a circle.
+  TargetScene scene;
+  scene.colors = "RW";
+  scene.sheet_half_side = 0;
+  scene.ground = {.03, .04, .1};
+  for (const double radius : {16., 18., 20.})
+  {
+    scene.radii = {radius, 1.3 * radius};
+    cv::Mat image = renderTarget(scene);
+    const auto half_width = static_cast<int>(.62 * radius);
+    const auto half_height = static_cast<int>(.17 * radius);
+    cv::rectangle(image, {240 - half_width, 180 - half_height}, {240 + half_width, 180 + half_height},
+                  cv::Scalar::all(235), cv::FILLED);
+    cv::GaussianBlur(image, image, cv::Size(), .9);
+    EXPECT_TRUE(findTargetsIn(image).empty()) << radius;
+  }
+}
+
+TEST(Targets, anUltrasonicSensorsEyeIsNone)
+{
+  // A bright rim around a dark disk, whose middle is a little less dark and not quite in the middle.
+  TargetScene scene;
+  scene.colors = "PW";
+  scene.radii = {15.5, 21};
+  scene.sheet_half_side = 0;
+  scene.ground = {.12, .05, .03};
+  cv::Mat image = renderTarget(scene);
+  cv::circle(image, {241, 181}, 11, cv::Scalar(88, 90, 92), cv::FILLED, cv::LINE_AA);
+  cv::GaussianBlur(image, image, cv::Size(), .9);
+  EXPECT_TRUE(findTargetsIn(image).empty());
+}
+
 TEST(Targets, bentSheet)
 {
   // 31 degrees of a pipe to either side, its axis towards the camera: no ring is an ellipse. As if the sheet

@@ -10,11 +10,15 @@ namespace
 // The classes of isTarget(). Its limits separate the candidates of 250 pictures with 515 targets from those of 97 with
 // clutter: circular things of three rings and less than 15 px (lenses, letters) are the nearest to targets.
 constexpr int MANY_RINGS = 4;
-constexpr double SMALL_RADIUS = 15;       // [px]
-constexpr double LARGE_RADIUS = 25;       // [px]
-constexpr double SMALLEST_DISK = 2;       // radius [px]
-constexpr double MOSTLY_VISIBLE = .8;     // of the directions
-constexpr double LEAST_VISIBLE = .66;     // round arches show .5 to .65
+constexpr double SMALL_RADIUS = 15;    // [px]
+constexpr double LARGE_RADIUS = 25;    // [px]
+constexpr double SMALLEST_DISK = 2;    // radius [px]
+constexpr double MOSTLY_VISIBLE = .8;  // of the directions
+constexpr double LEAST_VISIBLE = .66;  // round arches show .5 to .65
+// The disk of three rings that is a bar's middle: no-entry signs have 0 to .23 of the edges and .70 to .75 agreement.
+constexpr double BAR_CONTRAST = .5;
+constexpr double BAR_SUPPORT = .3;        // most
+constexpr double BAR_AGREEMENT = .85;     // most
 constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
 
 /**
@@ -26,6 +30,13 @@ double largestPerspective(const RingFamily& family, const cv::Size& image_size)
   const double aspect = family.aspect();
   return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
          (.5 * std::max(image_size.width, image_size.height));
+}
+
+/** Whether the disk is a bar's middle, as of a no-entry sign: a strong step that has hardly an edge along its circle.
+ */
+bool isBar(const Boundary& disk)
+{
+  return disk.contrast > BAR_CONTRAST && share(disk.supported) < BAR_SUPPORT && disk.agreement < BAR_AGREEMENT;
 }
 }  // namespace
 
@@ -41,6 +52,10 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
     return false;
   }
   const bool many = count >= MANY_RINGS;
+  if (!many && candidate.visible > MOSTLY_VISIBLE && isBar(candidate.boundaries.front()))
+  {
+    return false;
+  }
   const bool fits_well = rings.rms < .1 + .002 * radius;
   if (radius < SMALL_RADIUS || (radius < LARGE_RADIUS && !many && !fits_well))
   {

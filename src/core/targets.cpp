@@ -21,8 +21,8 @@ constexpr double HALF_READ_RMS = .13;  // [px]
 constexpr double UNREAD_RMS = .085;    // [px]
 constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
 // With unknown rings, the least evidence x visible share: lenses, eyes and signs have rings too, and no letters.
-constexpr double SMALL_DIAMETER = 30;   // [px]; of three rings all or all but one are to be read
-constexpr double MEDIUM_DIAMETER = 50;  // [px]
+// [px]; of three rings all or all but one are to be read: the eyes of ultrasonic sensors are 42 px wide.
+constexpr double MEDIUM_DIAMETER = 50;
 constexpr double CLEAR = .85;
 constexpr double VERY_CLEAR = .95;
 
@@ -49,7 +49,7 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   }
   const cv::Size2f size = target.rings.back().size;
   const float diameter = std::min(size.width, size.height);
-  if (counted == 3 && diameter < SMALL_DIAMETER)
+  if (counted == 3 && diameter < MEDIUM_DIAMETER)
   {
     return unknown == 0 || (unknown == 1 && clearness > VERY_CLEAR);
   }
