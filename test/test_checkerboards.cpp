@@ -115,29 +115,6 @@ TEST(Checkerboards, lightDoesNotMatter)
   EXPECT_LT(largestError(boards[0], 7, 9, truth), 0.6);
 }
 
-TEST(Checkerboards, aBoardIsFoundBelowAFence)
-{
-  // Bars half a square wide, a little farther apart than the squares: no corner's ring is without an edge of them.
-  const cv::Matx33d truth = omr::test::boardHomography(5, 7, {200, 150}, 26, 10, 20);
-  for (const double direction : {20, 155})
-  {
-    Render render({400, 300});
-    render.addBoard(5, 7, truth);
-    const cv::Point2d along(std::cos(direction * CV_PI / 180), std::sin(direction * CV_PI / 180));
-    const cv::Point2d across(-along.y, along.x);
-    for (int i = -10; i <= 10; ++i)
-    {
-      const cv::Point2d from = cv::Point2d(200, 150) + 31. * i * across - 300 * along;
-      render.addShadow({from, from + 600 * along, from + 600 * along + 13 * across, from + 13 * across}, 0.3);
-    }
-    const std::vector<Checkerboard> boards = find(render.picture(0.8));
-    ASSERT_EQ(1u, boards.size()) << direction;
-    EXPECT_EQ(5, boards[0].rows) << direction;
-    EXPECT_EQ(7, boards[0].cols) << direction;
-    EXPECT_LT(largestError(boards[0], 5, 7, truth), 1) << direction;
-  }
-}
-
 TEST(Checkerboards, partlyHiddenBoardsKeepTheirSize)
 {
   const cv::Matx33d truth = omr::test::boardHomography(7, 9, {300, 220}, 30, 5);

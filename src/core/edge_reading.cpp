@@ -16,6 +16,7 @@ namespace
 constexpr int MIN_CORNERS = 6;
 constexpr float MIN_SQUARE = 5;  // px; below it the places along an edge are not apart
 constexpr double RIDGE = 0.1;
+constexpr double SMOOTH_RIDGE = 0.5;
 
 /** What the edges along a line beside the lattice say, where the board might end. */
 struct EdgeLine
@@ -24,9 +25,9 @@ struct EdgeLine
   {
     return dark >= 0.5F && light <= 0.3F && dark - light >= 0.4F;
   }
-  bool goesOn() const
+  bool mayGoOn() const
   {
-    return light >= 0.4F;
+    return light > 0.15F;
   }
 
   int places = 0;   // in the picture, the fewer of both kinds
@@ -156,7 +157,10 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
       if (isInside(frame.raw_grey, predicted.at(place.x, place.y), 2))
       {
         ++places[is_light];
-        like[is_light] += strongestEdge(view, predicted, place, isRow(side), sign).isLike(0, ratio) ? 1 : 0;
+        Edge edge = strongestEdge(view, predicted, place, isRow(side), sign);
+        // Under a shadow that begins there a light square would end all the darker.
+        edge.ratio = is_light == 1 ? std::min(edge.ratio, ratio) : edge.ratio;
+        like[is_light] += edge.isLike(0, ratio) ? 1 : 0;
       }
     }
   }
@@ -185,10 +189,15 @@ void dropEmptyLines(Lattice& lattice)
   }
 }
 
-/** A plane; once its corners are exact, bent as a lens bends it. */
+/** A plane; once its corners are exact, and the more they are, bent as a lens bends it. */
 bool fitModel(const Lattice& lattice, bool exact, LatticeModel& model)
 {
-  constexpr int MIN_BENT = 20;  // corners
+  constexpr int MIN_BENT = 20;    // corners
+  constexpr int MIN_SMOOTH = 36;  // corners; with fewer a smooth surface follows the edges of shadows
+  if (exact && lattice.count() >= MIN_SMOOTH)
+  {
+    return model.fitSmooth(lattice, SMOOTH_RIDGE);
+  }
   const bool bent = exact && lattice.count() >= MIN_BENT;
   return lattice.count() >= MIN_CORNERS &&
          model.fit(lattice, bent ? LatticeModel::quadratic : LatticeModel::robust_homography, RIDGE);
@@ -233,7 +242,7 @@ SideEvidence sideEvidence(const EdgeLine& line)
   {
     return SideEvidence::doubtful_border;
   }
-  return line.places == 0 ? SideEvidence::cut : line.goesOn() ? SideEvidence::none : SideEvidence::rim;
+  return line.places == 0 ? SideEvidence::cut : line.mayGoOn() ? SideEvidence::none : SideEvidence::rim;
 }
 }  // namespace
 
