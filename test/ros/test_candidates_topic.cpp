@@ -100,7 +100,7 @@ TEST_F(CandidatesTopicTest, theRegionOfInterestCoversWhatIsNotRead)
   EXPECT_EQ(zoom, zoom & cv::Rect(0, 0, 640, 480));
 }
 
-TEST_F(CandidatesTopicTest, noneAndSecondLookPublishNone)
+TEST_F(CandidatesTopicTest, noneAndEnlargePublishNone)
 {
   show(ros::Time(300));
   set({{"candidate_mode", "enlarge"}});
