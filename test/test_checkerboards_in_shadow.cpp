@@ -34,15 +34,15 @@ double distanceToNearest(const cv::Point2f& corner, int rows, int cols, const cv
   return least;
 }
 
-/** Shadows of bars half a square wide and a little farther apart than the squares, so that no corner's ring is without
- * an edge of them. @param direction [degrees] */
-void addFence(Render& render, const cv::Point2d& center, double direction)
+/** Shadows of bars half a square wide. @param direction [degrees] @param step from bar to bar [px]; a little more than
+ * the squares, so that no corner's ring is without an edge of them. */
+void addFence(Render& render, const cv::Point2d& center, double direction, double step = 31)
 {
   const cv::Point2d along(std::cos(direction * CV_PI / 180), std::sin(direction * CV_PI / 180));
   const cv::Point2d across(-along.y, along.x);
   for (int i = -15; i <= 15; ++i)
   {
-    const cv::Point2d from = center + 31. * i * across - 500 * along;
+    const cv::Point2d from = center + step * i * across - 500 * along;
     render.addShadow({from, from + 1000 * along, from + 1000 * along + 13 * across, from + 13 * across}, 0.3);
   }
 }
@@ -65,6 +65,16 @@ TEST(CheckerboardsInShadow, aBoardIsFoundBelowAFence)
       EXPECT_LT(distanceToNearest(corner, 5, 7, truth), 1) << direction;
     }
   }
+}
+
+TEST(CheckerboardsInShadow, aSizeIsCertainWhereEdgesAndMarginSaySo)
+{
+  Render render({400, 300});
+  render.addBoard(5, 7, omr::test::boardHomography(5, 7, {200, 150}, 26, 10, 20));
+  addFence(render, {200, 150}, 115, 55);
+  const std::vector<Checkerboard> boards = find(render.picture(0.8));
+  ASSERT_EQ(1u, boards.size());
+  EXPECT_TRUE(boards[0].size_certain);
 }
 
 TEST(CheckerboardsInShadow, aWholeLatticeIsFoundBelowAFenceWithoutABorder)

@@ -6,6 +6,7 @@
 
 #include "board_judgement.h"
 #include "edge_reading.h"
+#include "outdoor_omr/border.h"
 #include "outdoor_omr/checkerboard_order.h"
 #include "outdoor_omr/corner_look.h"
 #include "outdoor_omr/corners.h"
@@ -137,10 +138,23 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
   return true;
 }
 
-/** The same by the edges of its squares, which say what corners do not under hard shadows. */
+/** The same by the edges of its squares, which say what corners do not under hard shadows; a border where both say so.
+ */
 bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence, 4>& sides)
 {
-  return readByEdges(frame, lattice, sides) && isBoardOfEdges(lattice, sides);
+  if (!readByEdges(frame, lattice, sides) || !isBoardOfEdges(lattice, sides))
+  {
+    return false;
+  }
+  for (const Side side : SIDES)
+  {
+    if (sides[side] == SideEvidence::doubtful_border && lookAtBorder(lattice, frame, side, 1).ends() &&
+        !rimGoesOn(lattice, frame, side))
+    {
+      sides[side] = SideEvidence::border;
+    }
+  }
+  return true;
 }
 
 /** Number of the lattice's corners that lie on the board of the outline. */
