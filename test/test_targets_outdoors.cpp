@@ -70,6 +70,30 @@ TEST(Targets, anUltrasonicSensorsEyeIsNone)
   EXPECT_TRUE(findTargetsIn(image).empty());
 }
 
+TEST(Targets, smallEyesAreNone)
+{
+  // As above, 17 px wide: a middle .8 px beside the middle makes three rings less than clear.
+  TargetScene scene;
+  scene.colors = "PW";
+  scene.radii = {6.2, 8.4};
+  scene.sheet_half_side = 0;
+  scene.ground = {.12, .05, .03};
+  const cv::Mat eye = renderTarget(scene);
+  constexpr int SHIFT = 4;  // positions in sixteenths of a pixel
+  for (const int offset : {0, 12})
+  {
+    for (const cv::Scalar& color : {cv::Scalar(60, 60, 150), cv::Scalar(160, 90, 60)})
+    {
+      cv::Mat image = eye.clone();
+      const cv::Point middle(240 * 16 + offset, 180 * 16 + offset);
+      cv::ellipse(image, middle, cv::Size(44, offset == 0 ? 28 : 36), 30, 0, 360, color, cv::FILLED, cv::LINE_AA,
+                  SHIFT);
+      cv::GaussianBlur(image, image, cv::Size(), .7);
+      EXPECT_EQ(offset == 0 ? 1U : 0U, findTargetsIn(image).size()) << color << " beside the middle by " << offset;
+    }
+  }
+}
+
 TEST(Targets, bentSheet)
 {
   // 31 degrees of a pipe to either side, its axis towards the camera: no ring is an ellipse. As if the sheet
