@@ -41,11 +41,13 @@ std::array<cv::Point2d, BENT_UNKNOWNS> moves(const RingFamily& family, const cv:
 void measureBent(const std::vector<BoundaryPoint>& points, const RingFamily& family, const std::vector<double>& radii,
                  std::vector<cv::Point2d>& places, std::vector<double>& distances)
 {
+  const bool are_near = places.size() == points.size();
   places.resize(points.size());
   distances.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const cv::Point2d q = family.toPlane(points[i].position);
+    const cv::Point2d& position = points[i].position;
+    const cv::Point2d q = are_near ? family.toPlane(position, places[i]) : family.toPlane(position);
     const double gradient = std::max(SMALLEST_GRADIENT, cv::norm(family.radiusGradient(q)));
     places[i] = q;
     distances[i] = (cv::norm(q) - radii[points[i].ring]) / gradient;

@@ -17,7 +17,7 @@ using BentDerivative = std::array<double, BENT_UNKNOWNS + 1>;
 /**
  * Distance of each point to its circle in the image, positive outside [px].
  *
- * @param places receive the points' places on the sheet.
+ * @param places receive the points' places on the sheet; if there are as many, those of a family much like this one.
  */
 void measureBent(const std::vector<BoundaryPoint>& points, const RingFamily& family, const std::vector<double>& radii,
                  std::vector<cv::Point2d>& places, std::vector<double>& distances);

@@ -80,7 +80,7 @@ bool BentFit::run(int max_steps)
     {
       RingFamily next = family_;
       std::vector<double> next_radii = radii_;
-      std::vector<cv::Point2d> next_places;
+      std::vector<cv::Point2d> next_places = places_;
       std::vector<double> next_errors;
       if (solve(damping, next, next_radii))
       {

@@ -11,8 +11,8 @@ namespace omr
 {
 namespace
 {
-constexpr int STEPS = 8;            // of Newton's method, from the plane sheet's point
-constexpr double CONVERGED = 1e-6;  // [px]
+constexpr int STEPS = 8;            // of Newton's method
+constexpr double CONVERGED = 1e-3;  // [px]; what is left after so small a step is its square
 constexpr int OUTLINE = 48;         // points of a bent circle
 
 /** The i-th of OUTLINE points. */
@@ -42,12 +42,17 @@ cv::Point2d RingFamily::toPlane(const cv::Point2d& p) const
   const double m11 = d - dp.y * hy;
   const double det = m00 * m11 - m01 * m10;
   cv::Point2d q((m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det);
-  for (int step = 0; isBent() && step < STEPS; ++step)
+  return isBent() ? toPlane(p, q) : q;
+}
+
+cv::Point2d RingFamily::toPlane(const cv::Point2d& p, cv::Point2d q) const
+{
+  const double longest = .5 / cv::norm(bend);  // half a curvature's radius: the next place is linear so far
+  for (int step = 0; step < STEPS; ++step)
   {
     const BentPoint point(*this, q);
     const cv::Point2d change = point.jacobian.inv() * (p - center - point.offset);
     const double size = cv::norm(change);
-    const double longest = .5 / cv::norm(bend);  // half a curvature's radius: the next place is linear so far
     q += change * std::min(1., longest / std::max(1e-12, size));
     if (size < CONVERGED)
     {

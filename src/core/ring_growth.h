@@ -26,7 +26,7 @@ bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings);
 /**
  * Refines rings as those of a sheet that is bent like a pipe.
  *
- * @return false, with rings unchanged, when no bend fits.
+ * @return false, with rings unchanged, when no bend fits or none fits much better than the plane.
  */
 bool bendRings(EdgelMap& map, Rings& rings);
 
