@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "bent_distances.h"
+#include "levenberg_marquardt.h"
 #include "tukey.h"
 
 namespace omr
@@ -13,9 +15,7 @@ namespace omr
 namespace
 {
 constexpr int UNKNOWNS = BENT_UNKNOWNS;
-constexpr int MAX_TRIALS = 4;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
-constexpr double CONVERGED = 1e-3;    // relative change of the cost
 
 // At the outermost circle. What is usual counts as much as one deviation of the points.
 constexpr double USUAL_PERSPECTIVE = .05;
@@ -67,41 +67,35 @@ BentFit::BentFit(const std::vector<BoundaryPoint>& points, const RingFamily& fam
 
 bool BentFit::run(int max_steps)
 {
-  double damping = 1e-3;
   std::vector<double> sizes;
-  for (int step = 0; step < max_steps; ++step)
-  {
-    limit_ = tukeyLimit(errors_, sizes);
-    build();
-    const double before = cost(family_, radii_, errors_);
-    double after = before;
-    bool accepted = false;
-    for (int trial = 0; trial < MAX_TRIALS && !accepted; ++trial)
-    {
-      RingFamily next = family_;
-      std::vector<double> next_radii = radii_;
-      std::vector<cv::Point2d> next_places = places_;
-      std::vector<double> next_errors;
-      if (solve(damping, next, next_radii))
-      {
+  RingFamily next;
+  std::vector<double> next_radii;
+  std::vector<cv::Point2d> next_places;
+  std::vector<double> next_errors;
+  levenbergMarquardt(
+      max_steps, 1e-3,
+      [&] {
+        limit_ = tukeyLimit(errors_, sizes);
+        build();
+        return cost(family_, radii_, errors_);
+      },
+      [&](double damping) {
+        next = family_;
+        next_radii = radii_;
+        next_places = places_;
+        if (!solve(damping, next, next_radii))
+        {
+          return std::numeric_limits<double>::infinity();
+        }
         measureBent(points_, next, next_radii, next_places, next_errors);
-        after = cost(next, next_radii, next_errors);
-        accepted = after <= before;
-      }
-      if (accepted)
-      {
+        return cost(next, next_radii, next_errors);
+      },
+      [&] {
         family_ = next;
         radii_ = next_radii;
         places_.swap(next_places);
         errors_.swap(next_errors);
-      }
-      damping = accepted ? std::max(1e-7, damping * .1) : damping * 10;
-    }
-    if (!accepted || before - after < CONVERGED * before)
-    {
-      break;
-    }
-  }
+      });
   return isPlausible(family_, radii_);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ring_deblur.h"
 #include "ring_ladder.h"
@@ -186,7 +187,7 @@ void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::v
       bent.evidence * bent.visible > candidate.evidence * candidate.visible - BENT_LOSS &&
       bent.rings.rms < gain * candidate.rings.rms)
   {
-    candidate = bent;
+    candidate = std::move(bent);
     edgels.swap(bent_edgels);
   }
 }

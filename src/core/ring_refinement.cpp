@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "levenberg_marquardt.h"
 #include "ring_equations.h"
 #include "tukey.h"
 
@@ -13,14 +14,12 @@ namespace omr
 namespace
 {
 constexpr int MAX_STEPS = 8;
-constexpr int MAX_TRIALS = 4;
 // Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives 0.05;
 // 0.35 is beyond what a marker can be read at.
 constexpr double USUAL_PERSPECTIVE = 0.05;
 constexpr double LARGEST_PERSPECTIVE = 0.35;
 constexpr double LARGEST_ASPECT = 5;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
-constexpr double CONVERGED = 1e-3;    // relative change of the cost
 
 class Fit
 {
@@ -31,38 +30,32 @@ class Fit
 
   bool run(RingFamily& family, std::vector<double>& radii)
   {
-    double damping = 1e-4;
+    RingEquations equations;
+    RingFamily next;
+    std::vector<double> next_radii;
     points_.measure(family, radii, errors_);
-    for (int step = 0; step < MAX_STEPS; ++step)
-    {
-      limit_ = tukeyLimit(errors_, sizes_);
-      const RingEquations equations = build(family, radii);
-      const double before = cost(family, radii, errors_);
-      double after = before;
-      bool accepted = false;
-      for (int trial = 0; trial < MAX_TRIALS && !accepted; ++trial)
-      {
-        RingFamily next = family;
-        std::vector<double> next_radii = radii;
-        if (solve(equations, damping, next, next_radii))
-        {
+    levenbergMarquardt(
+        MAX_STEPS, 1e-4,
+        [&] {
+          limit_ = tukeyLimit(errors_, sizes_);
+          equations = build(family, radii);
+          return cost(family, radii, errors_);
+        },
+        [&](double damping) {
+          next = family;
+          next_radii = radii;
+          if (!solve(equations, damping, next, next_radii))
+          {
+            return std::numeric_limits<double>::infinity();
+          }
           points_.measure(next, next_radii, next_errors_);
-          after = cost(next, next_radii, next_errors_);
-          accepted = after <= before;
-        }
-        if (accepted)
-        {
+          return cost(next, next_radii, next_errors_);
+        },
+        [&] {
           family = next;
           radii = next_radii;
           errors_.swap(next_errors_);
-        }
-        damping = accepted ? std::max(1e-7, damping * .1) : damping * 10;
-      }
-      if (!accepted || before - after < CONVERGED * before)
-      {
-        break;
-      }
-    }
+        });
     return plausible(family, radii);
   }
 

@@ -20,12 +20,13 @@ namespace
 constexpr double HALF_READ_RMS = .13;  // [px]
 constexpr double UNREAD_RMS = .085;    // [px]
 constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
-// With unknown rings, the least evidence x visible share: lenses, eyes and signs have rings too, and no letters.
-// [px]; of three rings all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are 42 px
-// wide. Small ones must be very clear in any case: of these eyes at 15 to 17 px the rings are by .89 to .94, of targets
-// below 30 px by .956 and more.
-constexpr double SMALL_DIAMETER = 30;
-constexpr double MEDIUM_DIAMETER = 50;
+// Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
+// 42 px wide. Small ones must be very clear in any case: at 15 to 17 px these eyes have .89 to .94, targets below 30 px
+// .956 and more.
+constexpr double MEDIUM_DIAMETER = 50;  // [px]
+constexpr double SMALL_DIAMETER = 30;   // [px]
+// Clearness: evidence x visible share. With unknown rings the least: lenses, eyes and signs have rings too, and no
+// letters.
 constexpr double CLEAR = .85;
 constexpr double VERY_CLEAR = .95;
 
