@@ -56,15 +56,21 @@ TEST(Targets, aNoEntrySignIsNone)
   }
 }
 
+/** A dark disk in a bright rim on a dark blue board, as a sensor has it. */
+cv::Mat renderEye(double disk, double rim)
+{
+  TargetScene scene;
+  scene.colors = "PW";
+  scene.radii = {disk, rim};
+  scene.sheet_half_side = 0;
+  scene.ground = {.12, .05, .03};
+  return renderTarget(scene);
+}
+
 TEST(Targets, anUltrasonicSensorsEyeIsNone)
 {
   // A bright rim around a dark disk, whose middle is a little less dark and not quite in the middle.
-  TargetScene scene;
-  scene.colors = "PW";
-  scene.radii = {15.5, 21};
-  scene.sheet_half_side = 0;
-  scene.ground = {.12, .05, .03};
-  cv::Mat image = renderTarget(scene);
+  cv::Mat image = renderEye(15.5, 21);
   cv::circle(image, {241, 181}, 11, cv::Scalar(88, 90, 92), cv::FILLED, cv::LINE_AA);
   cv::GaussianBlur(image, image, cv::Size(), .9);
   EXPECT_TRUE(findTargetsIn(image).empty());
@@ -73,12 +79,7 @@ TEST(Targets, anUltrasonicSensorsEyeIsNone)
 TEST(Targets, smallEyesAreNone)
 {
   // As above, 17 px wide: a middle .8 px beside the middle makes three rings less than clear.
-  TargetScene scene;
-  scene.colors = "PW";
-  scene.radii = {6.2, 8.4};
-  scene.sheet_half_side = 0;
-  scene.ground = {.12, .05, .03};
-  const cv::Mat eye = renderTarget(scene);
+  const cv::Mat eye = renderEye(6.2, 8.4);
   constexpr int SHIFT = 4;  // positions in sixteenths of a pixel
   for (const int offset : {0, 12})
   {

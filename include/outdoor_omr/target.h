@@ -16,7 +16,8 @@ struct Target
   /** Image of the circles' common centre; under perspective it is not the centre of the ellipses. */
   cv::Point2d center;
 
-  /** Outer boundary of each ring as an ellipse, in the order of colors; size holds full axes [px], angle degrees. */
+  /** Outer boundary of each ring as an ellipse, on a bent sheet the nearest one, in the order of colors; size holds
+   * full axes [px], angle degrees. */
   std::vector<cv::RotatedRect> rings;
 };
 

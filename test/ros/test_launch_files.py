@@ -13,7 +13,7 @@ import roslaunch.xmlloader
 PACKAGE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FILES = sorted(glob.glob(os.path.join(PACKAGE, 'launch', '*.launch')))
 # Of arguments without a default.
-VALUES = {'bag': '/tmp/a.bag', 'parts': '/tmp/parts.yaml', 'goals': '/tmp/goals.yaml', 'name': 'camera',
+VALUES = {'bag': '/a.bag', 'parts': '/parts.yaml', 'goals': '/goals.yaml', 'name': 'camera',
           'frame': 'base', 'inputs': '[left/position/parts, right/position/parts]'}
 
 
