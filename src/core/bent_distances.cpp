@@ -1,41 +1,13 @@
 #include "bent_distances.h"
 
 #include <algorithm>
-
-#include "bent_point.h"
+#include <cmath>
 
 namespace omr
 {
 namespace
 {
-constexpr double STEP = 1e-5;  // of the bend, relative to a radius of curvature as large as the outermost circle's
 constexpr double SMALLEST_GRADIENT = 1e-6;
-
-/** How the image of the sheet's point q moves with each unknown. */
-std::array<cv::Point2d, BENT_UNKNOWNS> moves(const RingFamily& family, const cv::Point2d& q, double radius)
-{
-  const BentPoint point(family, q);
-  const double inverse = 1 / point.w;
-  const cv::Point2d s = inverse * point.s;
-  const double z = inverse * point.z;
-  const double step = STEP / radius;
-  RingFamily right = family;
-  right.bend.x += step;
-  RingFamily down = family;
-  down.bend.y += step;
-  return {cv::Point2d(1, 0),
-          cv::Point2d(0, 1),
-          cv::Point2d(s.x, 0),
-          cv::Point2d(s.y, s.x),
-          cv::Point2d(0, s.y),
-          -s.x * point.offset,
-          -s.y * point.offset,
-          (BentPoint(right, q).offset - point.offset) / step,
-          (BentPoint(down, q).offset - point.offset) / step,
-          cv::Point2d(z, 0),
-          cv::Point2d(0, z),
-          -z * point.offset};
-}
 }  // namespace
 
 void measureBent(const std::vector<BoundaryPoint>& points, const RingFamily& family, const std::vector<double>& radii,
@@ -44,27 +16,61 @@ void measureBent(const std::vector<BoundaryPoint>& points, const RingFamily& fam
   const bool are_near = places.size() == points.size();
   places.resize(points.size());
   distances.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
+  const BentSheet sheet(family);
+  RingFamily plane = family;
+  plane.bend = {};
+  BentSheet::Points image;
+  BentSheet::Points q;
+  BentSheet::Points gradient;
+  for (std::size_t first = 0; first < points.size(); first += BentSheet::CHUNK)
   {
-    const cv::Point2d& position = points[i].position;
-    const cv::Point2d q = are_near ? family.toPlane(position, places[i]) : family.toPlane(position);
-    const double gradient = std::max(SMALLEST_GRADIENT, cv::norm(family.radiusGradient(q)));
-    places[i] = q;
-    distances[i] = (cv::norm(q) - radii[points[i].ring]) / gradient;
+    const std::size_t size = std::min(BentSheet::CHUNK, points.size() - first);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const cv::Point2d& position = points[first + i].position;
+      const cv::Point2d start = are_near ? places[first + i] : plane.toPlane(position);
+      image.x[i] = position.x;
+      image.y[i] = position.y;
+      q.x[i] = start.x;
+      q.y[i] = start.y;
+    }
+    sheet.toPlane(image, size, q);
+    sheet.gradients(q, size, gradient);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const double slope = std::sqrt(gradient.x[i] * gradient.x[i] + gradient.y[i] * gradient.y[i]);
+      places[first + i] = {q.x[i], q.y[i]};
+      distances[first + i] =
+          (cv::norm(places[first + i]) - radii[points[first + i].ring]) / std::max(SMALLEST_GRADIENT, slope);
+    }
   }
 }
 
-BentDerivative differentiateBent(const cv::Point2d& place, const RingFamily& family, double radius)
+void differentiateBent(const std::vector<cv::Point2d>& places, const RingFamily& family, std::vector<BentRow>& rows)
 {
-  const cv::Point2d gradient = family.radiusGradient(place);
-  const double scale = 1 / std::max(SMALLEST_GRADIENT, cv::norm(gradient));
-  const auto by_unknown = moves(family, place, radius);
-  BentDerivative derivative{};
-  // Where the image of the circle moves outwards, the distance falls.
-  std::transform(by_unknown.begin(), by_unknown.end(), derivative.begin(),
-                 [&](const cv::Point2d& move) { return -scale * gradient.dot(move); });
-  derivative[BENT_UNKNOWNS] = -scale;
-  return derivative;
+  const BentSheet sheet(family);
+  rows.resize(places.size());
+  BentSheet::Points q;
+  BentSheet::Derivatives derivatives;
+  for (std::size_t first = 0; first < places.size(); first += BentSheet::CHUNK)
+  {
+    const std::size_t size = std::min(BentSheet::CHUNK, places.size() - first);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      q.x[i] = places[first + i].x;
+      q.y[i] = places[first + i].y;
+    }
+    sheet.differentiate(q, size, derivatives);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      BentRow& row = rows[first + i];
+      for (std::size_t k = 0; k < derivatives.size(); ++k)
+      {
+        row[k] = derivatives[k][i];
+      }
+      std::fill(row.begin() + derivatives.size(), row.end(), 0);
+    }
+  }
 }
 
 }  // namespace omr

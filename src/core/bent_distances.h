@@ -4,15 +4,13 @@
 #include <array>
 #include <vector>
 
+#include "bent_sheet.h"
 #include "ring_refinement.h"
 
 namespace omr
 {
-/** The unknowns of a bent family: centre x, y, shape a, b, d, perspective hx, hy, bend x, y, normal x, y, hz. */
-constexpr int BENT_UNKNOWNS = 12;
-
-/** Derivative of a point's distance by them and by the radius of its circle. */
-using BentDerivative = std::array<double, BENT_UNKNOWNS + 1>;
+/** A row as long as vectors like: derivatives of a point's distance by BENT_UNKNOWNS and by its circle's radius. */
+using BentRow = std::array<double, 16>;
 
 /**
  * Distance of each point to its circle in the image, positive outside [px].
@@ -22,8 +20,8 @@ using BentDerivative = std::array<double, BENT_UNKNOWNS + 1>;
 void measureBent(const std::vector<BoundaryPoint>& points, const RingFamily& family, const std::vector<double>& radii,
                  std::vector<cv::Point2d>& places, std::vector<double>& distances);
 
-/** @param place of a point on the sheet. @param radius of the outermost circle [px] */
-BentDerivative differentiateBent(const cv::Point2d& place, const RingFamily& family, double radius);
+/** @param places of points on the sheet. @param rows receive the derivatives of each. */
+void differentiateBent(const std::vector<cv::Point2d>& places, const RingFamily& family, std::vector<BentRow>& rows);
 
 }  // namespace omr
 

@@ -9,6 +9,7 @@
 #include "bent_distances.h"
 #include "levenberg_marquardt.h"
 #include "tukey.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -40,6 +41,51 @@ Unknowns usualSizes(double radius)
   const double h = USUAL_PERSPECTIVE / radius;
   const double k = USUAL_ANGLE / radius;
   return {0, 0, 0, 0, 0, h, h, k, k, USUAL_NORMAL, USUAL_NORMAL, h};
+}
+
+/** Sums over the points of a ring. */
+struct RingSums
+{
+  std::array<BentRow, UNKNOWNS + 1> normal{};
+  BentRow right{};
+};
+
+/** A point's row and its part in the sums. */
+struct WeightedRow
+{
+  const double* row;
+  double weight;
+  double error;
+};
+
+/** One row of the sums after the other: it stays in registers. */
+OMR_VECTORIZED void addRows(const WeightedRow* rows, std::size_t count, RingSums& sums)
+{
+  constexpr std::size_t SIZE = std::tuple_size<BentRow>::value;
+  for (int i = 0; i <= UNKNOWNS; ++i)
+  {
+    BentRow sum{};
+    for (std::size_t p = 0; p < count; ++p)
+    {
+      const double* row = rows[p].row;
+      const double factor = rows[p].weight * row[i];
+      for (std::size_t j = 0; j < SIZE; ++j)
+      {
+        sum[j] += factor * row[j];
+      }
+    }
+    sums.normal[i] = sum;
+  }
+  BentRow right{};
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    const double factor = rows[p].weight * rows[p].error;
+    for (std::size_t j = 0; j < SIZE; ++j)
+    {
+      right[j] += factor * rows[p].row[j];
+    }
+  }
+  sums.right = right;
 }
 
 bool isPlausible(const RingFamily& family, const std::vector<double>& radii)
@@ -124,24 +170,30 @@ double BentFit::cost(const RingFamily& family, const std::vector<double>& radii,
 
 void BentFit::build()
 {
-  const int size = UNKNOWNS + static_cast<int>(radii_.size());
-  normal_ = cv::Mat::zeros(size, size, CV_64F);
-  right_ = cv::Mat::zeros(size, 1, CV_64F);
+  differentiateBent(places_, family_, rows_);
+  std::vector<std::vector<WeightedRow>> rows(radii_.size());
   for (std::size_t p = 0; p < points_.size(); ++p)
   {
     const double weight = tukeyWeight(errors_[p], limit_);
-    if (weight <= 0)
+    if (weight > 0)
     {
-      continue;
+      rows[points_[p].ring].push_back({rows_[p].data(), weight, errors_[p]});
     }
-    const BentDerivative row = differentiateBent(places_[p], family_, radii_.back());
+  }
+  const int size = UNKNOWNS + static_cast<int>(radii_.size());
+  normal_ = cv::Mat::zeros(size, size, CV_64F);
+  right_ = cv::Mat::zeros(size, 1, CV_64F);
+  for (int k = 0; k < static_cast<int>(rows.size()); ++k)
+  {
+    RingSums sums;
+    addRows(rows[k].data(), rows[k].size(), sums);
+    const auto place = [&](int unknown) { return unknown < UNKNOWNS ? unknown : UNKNOWNS + k; };
     for (int i = 0; i <= UNKNOWNS; ++i)
     {
-      const int at = i < UNKNOWNS ? i : UNKNOWNS + points_[p].ring;
-      right_.at<double>(at) -= weight * row[i] * errors_[p];
+      right_.at<double>(place(i)) -= sums.right[i];
       for (int j = 0; j <= UNKNOWNS; ++j)
       {
-        normal_.at<double>(at, j < UNKNOWNS ? j : UNKNOWNS + points_[p].ring) += weight * row[i] * row[j];
+        normal_.at<double>(place(i), place(j)) += sums.normal[i][j];
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "bent_distances.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -47,6 +48,7 @@ class BentFit
   std::vector<cv::Point2d> places_;  // of the points, on the sheet [px]
   std::vector<double> errors_;       // [px]
   double limit_ = 1;                 // Tukey's: errors beyond it do not count [px]
+  std::vector<BentRow> rows_;
   cv::Mat normal_, right_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bent_sheet.h"
 #include "fast_angle.h"
 #include "vectorized.h"
 
@@ -22,7 +23,7 @@ struct RadialTest
   double squared_cosine;
 };
 
-constexpr std::size_t CHUNK = 64;
+constexpr std::size_t CHUNK = BentSheet::CHUNK;
 
 /** Of edgels side by side; garbage where is_radial is 0. */
 struct RadialChunk
@@ -75,23 +76,40 @@ OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const flo
 void testBentEdgels(const RadialTest& test, const float* x, const float* y, const float* nx, const float* ny,
                     std::size_t size, RadialChunk& chunk)
 {
-  const cv::Rect2d box(test.top_left, test.bottom_right);
+  RingFamily plane = test.family;
+  plane.bend = {};
+  BentSheet::Points image;
+  BentSheet::Points q;
+  BentSheet::Points gradient;
+  std::array<std::size_t, CHUNK> inside;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < size; ++i)
   {
     chunk.is_radial[i] = 0;
-    if (!box.contains(cv::Point2d(x[i], y[i])))
+    if (x[i] >= test.top_left.x && x[i] < test.bottom_right.x && y[i] >= test.top_left.y && y[i] < test.bottom_right.y)
     {
-      continue;
+      const cv::Point2d start = plane.toPlane(cv::Point2d(x[i], y[i]));
+      image.x[count] = x[i];
+      image.y[count] = y[i];
+      q.x[count] = start.x;
+      q.y[count] = start.y;
+      inside[count++] = i;
     }
-    const cv::Point2d q = test.family.toPlane(cv::Point2d(x[i], y[i]));
-    const double squared = q.dot(q);
-    const cv::Point2d gradient = test.family.radiusGradient(q);
-    const double projection = gradient.dot(cv::Point2d(nx[i], ny[i]));
+  }
+  const BentSheet sheet(test.family);
+  sheet.toPlane(image, count, q);
+  sheet.gradients(q, count, gradient);
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const std::size_t i = inside[k];
+    const double squared = q.x[k] * q.x[k] + q.y[k] * q.y[k];
+    const double projection = gradient.x[k] * nx[i] + gradient.y[k] * ny[i];
+    const double slope = gradient.x[k] * gradient.x[k] + gradient.y[k] * gradient.y[k];
     chunk.radius[i] = static_cast<float>(std::sqrt(squared));
-    chunk.angle[i] = fastAngle(static_cast<float>(q.x), static_cast<float>(q.y));
+    chunk.angle[i] = fastAngle(static_cast<float>(q.x[k]), static_cast<float>(q.y[k]));
     chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
     chunk.is_radial[i] = squared <= test.max_squared && squared >= test.min_squared &&
-                                 projection * projection >= test.squared_cosine * gradient.dot(gradient)
+                                 projection * projection >= test.squared_cosine * slope
                              ? 1
                              : 0;
   }

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "bent_point.h"
+#include "bent_sheet.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int STEPS = 8;            // of Newton's method
-constexpr double CONVERGED = 1e-3;  // [px]; what is left after so small a step is its square
-constexpr int OUTLINE = 48;         // points of a bent circle
+constexpr int OUTLINE = 48;  // points of a bent circle
 
 /** The i-th of OUTLINE points. */
 cv::Point2d onCircle(int i, double radius)
@@ -41,25 +40,15 @@ cv::Point2d RingFamily::toPlane(const cv::Point2d& p) const
   const double m10 = b - dp.y * hx;
   const double m11 = d - dp.y * hy;
   const double det = m00 * m11 - m01 * m10;
-  cv::Point2d q((m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det);
-  return isBent() ? toPlane(p, q) : q;
-}
-
-cv::Point2d RingFamily::toPlane(const cv::Point2d& p, cv::Point2d q) const
-{
-  const double longest = .5 / cv::norm(bend);  // half a curvature's radius: the next place is linear so far
-  for (int step = 0; step < STEPS; ++step)
+  const cv::Point2d q((m11 * dp.x - m01 * dp.y) / det, (m00 * dp.y - m10 * dp.x) / det);
+  if (!isBent())
   {
-    const BentPoint point(*this, q);
-    const cv::Point2d change = point.jacobian.inv() * (p - center - point.offset);
-    const double size = cv::norm(change);
-    q += change * std::min(1., longest / std::max(1e-12, size));
-    if (size < CONVERGED)
-    {
-      break;
-    }
+    return q;
   }
-  return q;
+  const BentSheet::Points image{{p.x}, {p.y}};
+  BentSheet::Points places{{q.x}, {q.y}};
+  BentSheet(*this).toPlane(image, 1, places);
+  return {places.x[0], places.y[0]};
 }
 
 cv::Point2d RingFamily::radiusGradient(const cv::Point2d& q) const

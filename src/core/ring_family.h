@@ -32,9 +32,6 @@ struct RingFamily
   cv::Point2d toImage(const cv::Point2d& q) const;
   cv::Point2d toPlane(const cv::Point2d& p) const;
 
-  /** The same for a bent family. @param q near the result. */
-  cv::Point2d toPlane(const cv::Point2d& p, cv::Point2d q) const;
-
   /** Longest over shortest axis of small circles, >= 1. */
   double aspect() const;
 

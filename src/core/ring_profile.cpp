@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "bent_sheet.h"
 #include "vectorized.h"
 
 namespace omr
@@ -85,12 +86,26 @@ OMR_VECTORIZED void placeSamples(const RingFamily& source, const cv::Point2d& di
 void placeBentSamples(const RingFamily& family, const cv::Point2d& direction, double step, int count,
                       const cv::Size& image, Places& places)
 {
-  for (int i = 0; i < count; ++i)
+  const BentSheet sheet(family);
+  constexpr auto CHUNK = static_cast<int>(BentSheet::CHUNK);
+  BentSheet::Points q;
+  BentSheet::Points p;
+  for (int first = 0; first < count; first += CHUNK)
   {
-    const cv::Point2d p = family.toImage(i * step * direction);
-    places.x[i] = static_cast<float>(p.x);
-    places.y[i] = static_cast<float>(p.y);
-    places.is_inside[i] = p.x >= 0 && p.y >= 0 && p.x < image.width - 1 && p.y < image.height - 1 ? 1 : 0;
+    const int size = std::min(CHUNK, count - first);
+    for (int i = 0; i < size; ++i)
+    {
+      q.x[i] = (first + i) * step * direction.x;
+      q.y[i] = (first + i) * step * direction.y;
+    }
+    sheet.toImage(q, static_cast<std::size_t>(size), p);
+    for (int i = 0; i < size; ++i)
+    {
+      places.x[first + i] = static_cast<float>(p.x[i]);
+      places.y[first + i] = static_cast<float>(p.y[i]);
+      places.is_inside[first + i] =
+          p.x[i] >= 0 && p.y[i] >= 0 && p.x[i] < image.width - 1 && p.y[i] < image.height - 1 ? 1 : 0;
+    }
   }
 }
 
