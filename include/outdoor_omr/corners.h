@@ -11,7 +11,8 @@ namespace omr
 {
 /**
  * Refines all corners of the lattice to sub-pixel accuracy, then draws them towards a smooth surface through all
- * (homography and cubic polynomial) when that explains them to within the noise.
+ * (homography and cubic polynomial) when that explains them to within the noise. Corners that something covers in part
+ * count little in it.
  *
  * Nodes of the box that were not found, or whose corner the surface refutes, get the surface's position.
  *

@@ -17,6 +17,7 @@ struct LatticeNode
   cv::Point2f position;   ///< [px]
   float contrast = 0;     ///< see CornerLook
   float correlation = 0;  ///< see CornerLook
+  float weight = 1;       ///< of the corner in a surface through all
   std::uint8_t looks = 0;
 };
 

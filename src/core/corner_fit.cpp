@@ -26,8 +26,9 @@ constexpr int ROUNDS = 5;         // the first finds the grey values only; 4 are
 // of 0.072 px where things cover parts of boards, 0.058 instead of 0.064 under hard shadow; earlier, blurred ones
 // suffer.
 constexpr int FIRST_ROBUST = 3;
-constexpr float LIMIT = 2;        // of the difference between opposite quadrants and the others
-constexpr float LEAST_LIMIT = 8;  // grey levels, added to it
+constexpr float LIMIT = 2;           // of the difference between opposite quadrants and the others
+constexpr float LEAST_LIMIT = 8;     // grey levels, added to it
+constexpr float LEAST_CONTRAST = 1;  // grey levels
 constexpr int LANES = 8;
 constexpr int UNKNOWNS = 6;
 constexpr int MAX_PIXELS = 640;  // 25 x 25, rounded up to LANES
@@ -55,6 +56,7 @@ using Unknowns = cv::Vec<float, UNKNOWNS>;
 /** Normal equations, in sums over every eighth pixel. */
 struct Sums
 {
+  Lanes lacking = {};                                             // squared
   std::array<std::array<Lanes, UNKNOWNS>, UNKNOWNS> normal = {};  // the lower half
   std::array<Lanes, UNKNOWNS> right = {};
 };
@@ -74,6 +76,7 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float p
     const Pixels& pixels = window.pixels[group];
     std::array<Lanes, UNKNOWNS> by;  // each unknown
     Lanes rest;
+    Lanes squared;
     for (int i = 0; i < LANES; ++i)
     {
       const float x = clampToOne(pixels.u[i] - picture[4]);
@@ -87,6 +90,7 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float p
       const float share = lacking * per_limit;
       const float inside = 1 - share * share;
       const float weight = pixels.is_pixel[i] * 0.5F * (inside + std::abs(inside));  // root of Tukey's
+      squared[i] = pixels.is_pixel[i] * lacking * lacking;
       by[0][i] = weight;
       by[1][i] = a * weight;
       by[2][i] = b * weight;
@@ -109,6 +113,10 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float p
         sums.right[row][i] += by[row][i] * rest[i];
       }
     }
+    for (int i = 0; i < LANES; ++i)
+    {
+      sums.lacking[i] += squared[i];
+    }
   }
 }
 
@@ -117,12 +125,14 @@ float total(const Lanes& lanes)
   return std::accumulate(lanes.begin(), lanes.end(), 0.F);
 }
 
-/** The change by least squares over all pixels; a picture without edges does not move. */
-Unknowns changeOf(const Window& window, const Unknowns& picture, float per_limit)
+/** The change by least squares over all pixels; a picture without edges does not move. @param lacking receives the RMS
+ * of what the picture lacked before it [grey levels]. */
+Unknowns changeOf(const Window& window, const Unknowns& picture, float per_limit, float& lacking)
 {
   constexpr float RIDGE = 1e-3F;
   Sums sums;
   addUp(window, picture, per_limit, sums);
+  lacking = std::sqrt(total(sums.lacking) / static_cast<float>(std::max(1, window.count)));
   cv::Matx<double, UNKNOWNS, UNKNOWNS> normal;
   cv::Vec<double, UNKNOWNS> right;
   for (int row = 0; row < UNKNOWNS; ++row)
@@ -168,12 +178,12 @@ void gather(const cv::Mat& grey, const cv::Rect& box, const cv::Point2f& corner,
 }
 }  // namespace
 
-cv::Point2f fitCorner(const cv::Mat& grey, const LocalFrame& corner)
+CornerFit fitCorner(const cv::Mat& grey, const LocalFrame& corner)
 {
   const float area = cross(corner.u, corner.v);
   if (area == 0)
   {
-    return corner.node;
+    return {corner.node};
   }
   const float share_u = std::min(REACH_SHARE, MAX_REACH / length(corner.u));
   const float share_v = std::min(REACH_SHARE, MAX_REACH / length(corner.v));
@@ -182,7 +192,7 @@ cv::Point2f fitCorner(const cv::Mat& grey, const LocalFrame& corner)
   const cv::Rect box(cvRound(corner.node.x) - width, cvRound(corner.node.y) - height, 2 * width + 1, 2 * height + 1);
   if ((box & cv::Rect({0, 0}, grey.size())) != box)
   {
-    return corner.node;
+    return {corner.node};
   }
   const float square_u = std::abs(area) / length(corner.v) / SOFTNESS;
   const float square_v = std::abs(area) / length(corner.u) / SOFTNESS;
@@ -191,17 +201,19 @@ cv::Point2f fitCorner(const cv::Mat& grey, const LocalFrame& corner)
   Window window;
   gather(grey, box, corner.node, across_u, across_v, share_u * square_u, share_v * square_v, window);
   Unknowns picture;
+  float lacking = 0;
   for (int round = 0; round < ROUNDS; ++round)
   {
     const float limit = LIMIT * std::abs(picture[3]) + LEAST_LIMIT;
     const float per_limit = round < FIRST_ROBUST ? 0 : 1 / limit;
-    picture += changeOf(window, picture, per_limit);
+    picture += changeOf(window, picture, per_limit, lacking);
     if (!(std::max(std::abs(picture[4]), std::abs(picture[5])) < MAX_MOVE * std::min(square_u, square_v)))
     {
-      return corner.node;
+      return {corner.node};
     }
   }
-  return corner.at(picture[4] / square_u, picture[5] / square_v);
+  const float contrast = std::max(LEAST_CONTRAST, std::abs(picture[3]));
+  return {corner.at(picture[4] / square_u, picture[5] / square_v), lacking / contrast};
 }
 
 }  // namespace omr

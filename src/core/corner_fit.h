@@ -7,6 +7,15 @@
 
 namespace omr
 {
+/** Where a corner is, and how well its picture was explained. */
+struct CornerFit
+{
+  cv::Point2f position;
+  /** RMS of what the picture lacks over its contrast. Among the corners of one board that of one which something covers
+   * in part is larger: the limit of the better ones is narrow. Negative: not fitted, the position is the given one. */
+  float misfit = -1;
+};
+
 /**
  * Fits the picture of a corner to the pixels around it: four quadrants, each with a grey value of its own, that two
  * edges as soft as lens and pixels make them divide. All pixels along the edges count, linearly, so noise neither draws
@@ -20,7 +29,7 @@ namespace omr
  * @param corner position, to a pixel, and the lattice around it [px].
  * @return       the fitted position; the given one where the fit leaves the corner or the picture.
  */
-cv::Point2f fitCorner(const cv::Mat& grey, const LocalFrame& corner);
+CornerFit fitCorner(const cv::Mat& grey, const LocalFrame& corner);
 
 }  // namespace omr
 

@@ -1,5 +1,8 @@
 #include "outdoor_omr/corners.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "corner_fit.h"
 #include "outdoor_omr/lattice_model.h"
 #include "outdoor_omr/lattice_prediction.h"
@@ -8,10 +11,49 @@ namespace omr
 {
 namespace
 {
-/** Moves the corners to where their pictures fit. @param model through them, if it explains them; none otherwise. */
-void fitCorners(const cv::Mat& grey, const LatticeModel* model, Lattice& lattice)
+/**
+ * Weights corners whose picture is worse explained than the others': something covers a part of them, draws them by
+ * 0.03 to 0.3 px and the surface with them. On rendered plates of which 30 % is hidden (240 pictures) the seen corners
+ * beside unseen squares, squares of 7 to 16 px: RMS 0.07 -> 0.014 px; occlusion set, all corners: 0.062 -> 0.048.
+ *
+ * @param noise of corners that nothing covers, beside the surface [px].
+ */
+void weightCorners(const std::vector<float>& misfits, float noise, Lattice& lattice)
+{
+  constexpr float CLEAN = 2.5F;      // deviations of the misfits; normal ones lie below
+  constexpr float DRAWN = 0.6F;      // px of error by a misfit of the whole contrast, beyond the others'
+  constexpr float UNFITTED = 0.15F;  // px; of saddle points
+  std::vector<float> sorted;
+  std::copy_if(misfits.begin(), misfits.end(), std::back_inserter(sorted), [](float misfit) { return misfit >= 0; });
+  if (sorted.empty())
+  {
+    return;
+  }
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const float median = *middle;
+  std::transform(sorted.begin(), sorted.end(), sorted.begin(), [&](float misfit) { return std::abs(misfit - median); });
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const float limit = median + CLEAN * 1.4826F * *middle;
+  std::size_t number = 0;
+  for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
+  {
+    for (int j = lattice.box.x; j < lattice.box.br().x; ++j, ++number)
+    {
+      const float misfit = misfits[number];
+      const float excess = std::sqrt(std::max(0.F, misfit * misfit - limit * limit));
+      const float error = misfit < 0 ? UNFITTED : DRAWN * excess;
+      lattice.at(i, j).weight = noise * noise / (noise * noise + error * error);
+    }
+  }
+}
+
+/** Moves the corners to where their pictures fit. @param model through them, if it explains them; none otherwise.
+ * @return misfits of all nodes, see CornerFit. */
+std::vector<float> fitCorners(const cv::Mat& grey, const LatticeModel* model, Lattice& lattice)
 {
   const Lattice before = lattice;
+  std::vector<float> misfits(before.box.area(), -1);
   for (int i = before.box.y; i < before.box.br().y; ++i)
   {
     for (int j = before.box.x; j < before.box.br().x; ++j)
@@ -34,9 +76,12 @@ void fitCorners(const cv::Mat& grey, const LatticeModel* model, Lattice& lattice
           continue;
         }
       }
-      lattice.at(i, j).position = fitCorner(grey, corner);
+      const CornerFit fit = fitCorner(grey, corner);
+      lattice.at(i, j).position = fit.position;
+      misfits[(i - before.box.y) * before.box.width + j - before.box.x] = fit.misfit;
     }
   }
+  return misfits;
 }
 }  // namespace
 
@@ -45,15 +90,29 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
   constexpr double RIDGE = 0.5;
   constexpr double MAX_RMS = 0.8;  // px; blurred and shadowed boards have 0.3 to 0.7 (with 0.35: degrade 0.17 for 0.10)
   constexpr float MODEL_SHARE = 0.8F;  // of the surface in the result
+  constexpr float NOISE = 0.015F;      // px; corners have it on rendered boards
+  // The second sees whether the surface bears the weights of the first: a crumpled sheet does not (one board of the
+  // blender set 0.1 -> 0.47 px with one).
+  constexpr int WEIGHTINGS = 2;
   LatticeModel model;
   if (!model.fitSmooth(lattice, RIDGE))
   {
     return {};
   }
-  fitCorners(frame.raw_grey, model.rms() < MAX_RMS ? &model : nullptr, lattice);
+  const std::vector<float> misfits = fitCorners(frame.raw_grey, model.rms() < MAX_RMS ? &model : nullptr, lattice);
   if (!model.fitSmooth(lattice, RIDGE))
   {
     return {};
+  }
+  float noise = NOISE;
+  for (int round = 0; round < WEIGHTINGS; ++round)
+  {
+    noise = std::max(noise, static_cast<float>(model.median()));
+    weightCorners(misfits, noise, lattice);
+    if (!model.fitSmooth(lattice, RIDGE))
+    {
+      return {};
+    }
   }
   const bool explains = model.rms() < MAX_RMS;
   const cv::Rect box = lattice.box;
@@ -72,7 +131,7 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
       }
       else if (explains)
       {
-        node.position += MODEL_SHARE * (smooth - node.position);
+        node.position += (1 - (1 - MODEL_SHARE) * node.weight) * (smooth - node.position);
       }
     }
   }

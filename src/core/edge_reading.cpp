@@ -112,7 +112,7 @@ float lookAtNodes(const Frame& frame, const LatticeModel& model, float ratio, La
         continue;
       }
       CornerLook corner;
-      corner.position = fitCorner(frame.raw_grey, {edges.position, predicted.u, predicted.v});
+      corner.position = fitCorner(frame.raw_grey, {edges.position, predicted.u, predicted.v}).position;
       corner.contrast = edges.contrast;
       corner.correlation = edges.agreeing;
       if (ratio == 0 || squaresBetween(predicted, corner.position) <= MAX_DEVIATION)

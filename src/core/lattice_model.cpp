@@ -174,6 +174,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
   half_width_ = (box.width - 1) / 2.;
   std::vector<cv::Point2d> places;
   std::vector<cv::Point2f> positions;
+  std::vector<double> given;
   for (int i = box.y; i < box.br().y; ++i)
   {
     for (int j = box.x; j < box.br().x; ++j)
@@ -182,11 +183,12 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
       {
         places.push_back(place(i, j));
         positions.push_back(lattice.at(i, j).position);
+        given.push_back(lattice.at(i, j).weight);
       }
     }
   }
   const double outlier = terms == quartic ? QUARTIC_OUTLIER : OUTLIER;
-  std::vector<double> weights(places.size(), 1);
+  std::vector<double> weights = given;
   if (!fitHomography(places, positions, weights, homography_))
   {
     return false;
@@ -215,7 +217,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const double excess = residuals[i] / (outlier * std::max(LEAST_MEDIAN, median_));
-      weights[i] = 1 / (1 + std::pow(excess, 4));
+      weights[i] = given[i] / (1 + std::pow(excess, 4));
     }
   }
   outliers_ = static_cast<int>(
