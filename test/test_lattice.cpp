@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "outdoor_omr/lattice.h"
 #include "outdoor_omr/lattice_evidence.h"
@@ -68,6 +69,28 @@ Lattice latticeOf(int rows, int cols, const Position& position)
   return lattice;
 }
 }  // namespace
+
+TEST(Lattice, aNewStartForgetsAllOfTheLast)
+{
+  Lattice lattice;
+  CornerLook corner;
+  corner.sign = 1;
+  lattice.start({}, corner);
+  lattice.put(6, 40, corner);
+  lattice.at(45, 9).looks = 3;
+  lattice.at(30, 30).weight = .5F;
+  lattice.start({}, corner);
+  for (int row = 0; row < Lattice::SIZE; ++row)
+  {
+    for (int col = 0; col < Lattice::SIZE; ++col)
+    {
+      const omr::LatticeNode& node = std::as_const(lattice).at(row, col);
+      EXPECT_EQ(row == Lattice::SEED && col == Lattice::SEED, node.found);
+      EXPECT_EQ(0, node.looks);
+      EXPECT_EQ(1, node.weight);
+    }
+  }
+}
 
 TEST(Lattice, growsToTheWholeBoardFromAnyCorner)
 {

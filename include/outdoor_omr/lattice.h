@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_LATTICE_H
 #define OUTDOOR_OMR_LATTICE_H
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -39,6 +40,8 @@ class Lattice
 
   LatticeNode& at(int row, int col)
   {
+    first_row_ = std::min(first_row_, row);
+    last_row_ = std::max(last_row_, row);
     return nodes_[row * SIZE + col];
   }
   const LatticeNode& at(int row, int col) const
@@ -85,6 +88,8 @@ class Lattice
   LocalFrame seed_;
   int seed_sign_ = 1;
   int count_ = 0;
+  int first_row_ = SIZE;  // that may have been written to since the start
+  int last_row_ = -1;
 };
 
 }  // namespace omr

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grey_samples.h"
 #include "vectorized.h"
 
 namespace omr
@@ -54,47 +55,11 @@ float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern,
   return variance > 1e-4F ? (product - sum * pattern_sum / N) / std::sqrt(variance) : 0.F;
 }
 
-/** Where the samples of a ring lie on the level [px]. */
-struct RingPlaces
-{
-  std::array<float, RING_SAMPLES> x, y;
-};
+using RingPlaces = SamplePlaces<RING_SAMPLES>;
 
-/** sampleGrey() of all samples. */
 OMR_VECTORIZED void sampleAll(const cv::Mat& grey, const RingPlaces& places, Ring& ring)
 {
-  const float last_x = static_cast<float>(grey.cols) - 1.001F;
-  const float last_y = static_cast<float>(grey.rows) - 1.001F;
-  const auto step = static_cast<int>(grey.step[0]);
-  std::array<int, RING_SAMPLES> offset;
-  RingPlaces share;
-  for (int i = 0; i < RING_SAMPLES; ++i)
-  {
-    const float x = std::min(std::max(places.x[i], 0.F), last_x);
-    const float y = std::min(std::max(places.y[i], 0.F), last_y);
-    const int column = static_cast<int>(x);
-    const int row = static_cast<int>(y);
-    share.x[i] = x - static_cast<float>(column);
-    share.y[i] = y - static_cast<float>(row);
-    offset[i] = row * step + column;
-  }
-  std::array<std::array<int, RING_SAMPLES>, 4> pixels;
-  for (int i = 0; i < RING_SAMPLES; ++i)
-  {
-    const uchar* above = grey.data + offset[i];
-    const uchar* below = above + step;
-    pixels[0][i] = above[0];
-    pixels[1][i] = above[1];
-    pixels[2][i] = below[0];
-    pixels[3][i] = below[1];
-  }
-  for (int i = 0; i < RING_SAMPLES; ++i)
-  {
-    const float a = share.x[i];
-    const float b = share.y[i];
-    ring[i] = (static_cast<float>(pixels[0][i]) * (1 - a) + static_cast<float>(pixels[1][i]) * a) * (1 - b) +
-              (static_cast<float>(pixels[2][i]) * (1 - a) + static_cast<float>(pixels[3][i]) * a) * b;
-  }
+  sampleGreys(grey, places, ring);
 }
 }  // namespace
 

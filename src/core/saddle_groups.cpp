@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "grey_samples.h"
 #include "outdoor_omr/saddle_points.h"
+#include "point_grid.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -16,88 +18,6 @@ constexpr int MAX_FAINT_POINTS = 2000;
 constexpr int PARTS = 8;        // of the points, shared by the threads; the seeds do not depend on how many there are
 constexpr float CLEAR_GAP = 5;  // grey levels between light and dark squares
 constexpr float FAINT_GAP = 3;
-
-/** Saddle points by cells of the image. */
-class PointGrid
-{
- public:
-  PointGrid(const std::vector<cv::Point>& points, const cv::Size& size)
-      : cols_(size.width / CELL + 1),
-        rows_(size.height / CELL + 1),
-        first_(cols_ * rows_ + 1, 0),
-        sorted_(points.size())
-  {
-    for (const cv::Point& point : points)
-    {
-      ++first_[cellOf(point) + 1];
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<int> end(first_.begin() + 1, first_.end());
-    for (const cv::Point& point : points)
-    {
-      sorted_[--end[cellOf(point)]] = point;
-    }
-  }
-
-  struct Neighbour
-  {
-    float distance;
-    cv::Point2f offset;
-    bool operator<(const Neighbour& other) const
-    {
-      return distance < other.distance;
-    }
-  };
-
-  /** The nearest neighbours, nearest first; at most MAX_NEIGHBOURS. */
-  void neighbours(const cv::Point& center, std::vector<Neighbour>& found) const
-  {
-    const int col = center.x / CELL;
-    const int row = center.y / CELL;
-    for (int reach = 1; reach <= MAX_REACH; ++reach)
-    {
-      found.clear();
-      for (int y = std::max(0, row - reach); y <= std::min(rows_ - 1, row + reach); ++y)
-      {
-        const int from = first_[y * cols_ + std::max(0, col - reach)];
-        const int to = first_[y * cols_ + std::min(cols_ - 1, col + reach) + 1];
-        for (int i = from; i < to; ++i)
-        {
-          const cv::Point offset = sorted_[i] - center;
-          const int squared = offset.dot(offset);
-          if (squared >= MIN_SQUARED && squared < MAX_SQUARED)
-          {
-            found.push_back({std::sqrt(static_cast<float>(squared)), offset});
-          }
-        }
-      }
-      if (found.size() >= MAX_NEIGHBOURS)
-      {
-        break;
-      }
-    }
-    const std::size_t kept = std::min<std::size_t>(found.size(), MAX_NEIGHBOURS);
-    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
-    found.resize(kept);
-  }
-
- private:
-  static constexpr int CELL = 16;  // px
-  static constexpr int MAX_REACH = 3;
-  static constexpr std::size_t MAX_NEIGHBOURS = 8;
-  static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
-  static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
-
-  int cellOf(const cv::Point& point) const
-  {
-    return point.y / CELL * cols_ + point.x / CELL;
-  }
-
-  int cols_;
-  int rows_;
-  std::vector<int> first_;         // of the points of each cell, and the end of all
-  std::vector<cv::Point> sorted_;  // by cells, row by row
-};
 
 /** Grey levels by which the seven squares around the corner alternate, or 0 if by less than the least gap. */
 float alternation(const cv::Mat& grey, const LocalFrame& frame, float least_gap)
@@ -132,36 +52,120 @@ float alternation(const cv::Mat& grey, const LocalFrame& frame, float least_gap)
   return 0;
 }
 
+/** Pairs of steps from one point. */
+struct Steps
+{
+  static constexpr std::size_t SIZE = 8;
+
+  std::array<float, SIZE> ux, uy, vx, vy;
+};
+
+/** Which of the pairs' four squares around the point alternate: alternation() of their frames may be more than 0. */
+OMR_VECTORIZED void judgeSquares(const cv::Mat& grey, const cv::Point2f& center, const Steps& steps, float least_gap,
+                                 std::array<int, Steps::SIZE>& alternate)
+{
+  constexpr std::size_t SIZE = Steps::SIZE;
+  SamplePlaces<4 * SIZE> places;  // by squares
+  const float x = center.x;
+  const float y = center.y;
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    const float ux = .5F * steps.ux[i];
+    const float uy = .5F * steps.uy[i];
+    const float vx = .5F * steps.vx[i];
+    const float vy = .5F * steps.vy[i];
+    places.x[i] = x + ux + vx;
+    places.y[i] = y + uy + vy;
+    places.x[SIZE + i] = x - ux + vx;
+    places.y[SIZE + i] = y - uy + vy;
+    places.x[2 * SIZE + i] = x - ux - vx;
+    places.y[2 * SIZE + i] = y - uy - vy;
+    places.x[3 * SIZE + i] = x + ux - vx;
+    places.y[3 * SIZE + i] = y + uy - vy;
+  }
+  std::array<float, 4 * SIZE> values;
+  sampleGreys(grey, places, values);
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    const float sign = values[i] > values[SIZE + i] ? 1 : -1;
+    const float light = std::min(sign * values[i], sign * values[2 * SIZE + i]);
+    const float dark = std::max(sign * values[SIZE + i], sign * values[3 * SIZE + i]);
+    alternate[i] = light - dark >= least_gap ? 1 : 0;
+  }
+}
+
+/** Looks for the first frame in which the squares alternate, eight at a time: most are in texture, where none is. */
+class FrameSearch
+{
+ public:
+  FrameSearch(const cv::Mat& grey, const cv::Point2f& center, float least_gap)
+      : grey_(grey), center_(center), least_gap_(least_gap)
+  {
+  }
+
+  /** @return whether a frame was found. */
+  bool add(const cv::Point2f& u, const cv::Point2f& v, Seed& seed)
+  {
+    steps_.ux[count_] = u.x;
+    steps_.uy[count_] = u.y;
+    steps_.vx[count_] = v.x;
+    steps_.vy[count_] = v.y;
+    return ++count_ == Steps::SIZE && judge(seed);
+  }
+
+  /** Looks at those added since the last look. */
+  bool judge(Seed& seed)
+  {
+    std::array<int, Steps::SIZE> alternate;
+    judgeSquares(grey_, center_, steps_, least_gap_, alternate);
+    const std::size_t count = count_;
+    count_ = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const LocalFrame frame{center_, {steps_.ux[i], steps_.uy[i]}, {steps_.vx[i], steps_.vy[i]}};
+      const float gap = alternate[i] != 0 ? alternation(grey_, frame, least_gap_) : 0;
+      if (gap >= least_gap_)
+      {
+        seed = {frame, true, static_cast<int>(gap)};
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  const cv::Mat& grey_;
+  cv::Point2f center_;
+  float least_gap_;
+  Steps steps_{};
+  std::size_t count_ = 0;
+};
+
 /** The first frame, nearest neighbours first, in which the squares alternate. */
 bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
                          const std::vector<PointGrid::Neighbour>& neighbours, float least_gap, Seed& seed)
 {
   constexpr float MIN_SINE = 0.4F;
   constexpr float MAX_STEP_RATIO = 2.5F;
+  FrameSearch search(grey, center, least_gap);
+  std::array<float, PointGrid::MAX_NEIGHBOURS> distances;
+  std::transform(neighbours.begin(), neighbours.end(), distances.begin(),
+                 [](const auto& neighbour) { return std::sqrt(static_cast<float>(neighbour.squared)); });
   for (std::size_t a = 0; a < neighbours.size(); ++a)
   {
-    for (std::size_t b = a + 1; b < neighbours.size(); ++b)
+    for (std::size_t b = a + 1; b < neighbours.size() && distances[b] <= MAX_STEP_RATIO * distances[a]; ++b)
     {
-      LocalFrame frame{center, neighbours[a].offset, neighbours[b].offset};
-      const float area = cross(frame.u, frame.v);
-      if (std::abs(area) < MIN_SINE * neighbours[a].distance * neighbours[b].distance ||
-          neighbours[b].distance > MAX_STEP_RATIO * neighbours[a].distance)
+      const cv::Point2f first = neighbours[a].offset;
+      const cv::Point2f second = neighbours[b].offset;
+      const float area = cross(first, second);
+      if (std::abs(area) >= MIN_SINE * distances[a] * distances[b] &&
+          (area < 0 ? search.add(second, first, seed) : search.add(first, second, seed)))
       {
-        continue;
-      }
-      if (area < 0)
-      {
-        std::swap(frame.u, frame.v);
-      }
-      const float gap = alternation(grey, frame, least_gap);
-      if (gap >= least_gap)
-      {
-        seed = {frame, true, static_cast<int>(gap)};
         return true;
       }
     }
   }
-  return false;
+  return search.judge(seed);
 }
 }  // namespace
 
