@@ -78,19 +78,22 @@ TEST(Targets, anUltrasonicSensorsEyeIsNone)
 
 TEST(Targets, smallEyesAreNone)
 {
-  // As above, 17 px wide: a middle .8 px beside the middle makes three rings less than clear.
+  // As above, 17 px wide: a middle .8 px beside the middle makes three rings less than clear. In the middle its colour
+  // tells: the second one is none of a target's.
   const cv::Mat eye = renderEye(6.2, 8.4);
   constexpr int SHIFT = 4;  // positions in sixteenths of a pixel
   for (const int offset : {0, 12})
   {
-    for (const cv::Scalar& color : {cv::Scalar(60, 60, 150), cv::Scalar(160, 90, 60)})
+    for (const bool is_red : {true, false})
     {
+      const cv::Scalar color = is_red ? cv::Scalar(60, 60, 150) : cv::Scalar(160, 90, 60);
       cv::Mat image = eye.clone();
       const cv::Point middle(240 * 16 + offset, 180 * 16 + offset);
       cv::ellipse(image, middle, cv::Size(44, offset == 0 ? 28 : 36), 30, 0, 360, color, cv::FILLED, cv::LINE_AA,
                   SHIFT);
       cv::GaussianBlur(image, image, cv::Size(), .7);
-      EXPECT_EQ(offset == 0 ? 1U : 0U, findTargetsIn(image).size()) << color << " beside the middle by " << offset;
+      EXPECT_EQ(offset == 0 && is_red ? 1U : 0U, findTargetsIn(image).size())
+          << color << " beside the middle by " << offset;
     }
   }
 }

@@ -169,6 +169,19 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
   });
 }
 
+void keepDirections(AngleBins open, std::vector<RadialEdgel>& edgels)
+{
+  if (~open != 0)
+  {
+    for (RadialEdgel& edgel : edgels)
+    {
+      edgel.bins &= open;
+    }
+    edgels.erase(std::remove_if(edgels.begin(), edgels.end(), [](const RadialEdgel& edgel) { return edgel.bins == 0; }),
+                 edgels.end());
+  }
+}
+
 AngularSupport::AngularSupport(const std::vector<RadialEdgel>& edgels, double max_radius)
     : brighter_(static_cast<std::size_t>(max_radius / CELL) + 1), darker_(brighter_.size())
 {

@@ -37,6 +37,9 @@ struct RadialEdgel
 void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
                          std::vector<RadialEdgel>& edgels);
 
+/** Leaves out the edgels in other directions. */
+void keepDirections(AngleBins open, std::vector<RadialEdgel>& edgels);
+
 /** The directions in which edgels lie on circles of each radius. */
 class AngularSupport
 {

@@ -12,7 +12,6 @@ namespace omr
 namespace
 {
 constexpr int ANGLES = RingProfile::ANGLES;
-constexpr int MIN_ANGLES = ANGLES / 2;      // that must lie inside the image
 constexpr int MIN_EDGED = 16;               // directions with an edge that make a median
 constexpr double MIN_WIDTH = 2.5;           // of a ring whose boundaries edgels alone show [px]
 constexpr double MIDDLE = .4;               // of a ring: from here to 1 - MIDDLE
@@ -28,8 +27,9 @@ constexpr double FAINT_AGREEMENT = .3;       // more at the least contrast
 constexpr double CLEAR_AGREEMENT = .8;       // below it, edgels must tell that a boundary is no gradual change
 constexpr double MIN_SUPPORT = .25;          // by edgels, of such a one
 constexpr double MIN_OUTER_AGREEMENT = .78;  // of the outermost boundary where its inner neighbour agrees
-constexpr double MAX_WIDTH_RATIO = 4.5;      // of the rings of one target
-constexpr double DISK_SHARE = .75;           // of a disk's width that counts: it may be wider
+constexpr double ROUND_MARGIN = 1.4;
+constexpr double MAX_WIDTH_RATIO = 4.5;  // of the rings of one target
+constexpr double DISK_SHARE = .75;       // of a disk's width that counts: it may be wider
 
 // Cameras and JPEG blur hues over several pixels: beside an edge the hue changes once more, faintly and without edgels.
 constexpr double BLEEDING = 6;        // reach of that [px]
@@ -49,6 +49,12 @@ float median(Values& values, int count)
 {
   std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
   return values[count / 2];
+}
+
+/** How far from its boundary an edge may be [px]. */
+double edgeTolerance(double radius)
+{
+  return std::max(.8, .012 * radius);
 }
 
 /** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
@@ -98,7 +104,7 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   std::array<LogColor, ANGLES> local_steps;
   Boundary boundary;
   boundary.radius = radii[k];
-  boundary.supported = support.at(radii[k], std::max(.8, .012 * radii[k]));
+  boundary.supported = support.at(radii[k], edgeTolerance(radii[k]));
   for (int angle = 0; angle < ANGLES; ++angle)
   {
     LogColor before;
@@ -111,7 +117,7 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
       boundary.seen |= AngleBins{1} << angle;
     }
   }
-  if (bits(boundary.seen) < MIN_ANGLES)
+  if (bits(boundary.seen) < leastDirections(profile))
   {
     return boundary;
   }
@@ -168,12 +174,19 @@ bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
 
 namespace
 {
+/** Share of the directions in which a square's sides come so near to a circle that they pass for it. */
+double squareShare(double radius)
+{
+  const double tolerance = edgeTolerance(radius) / radius;
+  return 4 / CV_PI * std::acos((1 - tolerance) / (1 + tolerance));
+}
+
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
-double quality(const std::vector<Boundary>& boundaries, std::size_t k)
+double quality(const std::vector<Boundary>& boundaries, std::size_t k, AngleBins open)
 {
   const Boundary& boundary = boundaries[k];
   const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
-  const double supported = share(boundary.supported);
+  const double supported = share(boundary.supported) / share(open);
   const bool is_edge = supported > EDGE_SUPPORT && boundary.coherence > EDGE_COHERENCE;
   const double least_contrast = (is_edge ? MIN_EDGE_CONTRAST : MIN_CONTRAST) * (1 + SMALL_RADIUS / boundary.radius);
   double result =
@@ -193,7 +206,9 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k)
     // The edge of a square sheet resembles a circle in half of the directions in which the rings are seen.
     const AngleBins inner = boundaries[k - 1].agreeing & boundary.seen;
     const double shared = bits(inner & boundary.agreeing) / std::max(1., static_cast<double>(bits(inner)));
-    result = std::min(result, shared / MIN_OUTER_AGREEMENT);
+    const double edges = share(boundary.agreeing & boundary.supported);
+    result =
+        std::min(result, std::max(shared / MIN_OUTER_AGREEMENT, edges / (ROUND_MARGIN * squareShare(boundary.radius))));
   }
   return result;
 }
@@ -243,7 +258,7 @@ std::vector<Boundary> findBoundaries(const RingProfile& profile, const AngularSu
     double worst_quality = 1;
     for (std::size_t k = 0; k < radii.size(); ++k)
     {
-      const double value = quality(boundaries, k);
+      const double value = quality(boundaries, k, profile.open);
       if (value < worst_quality)
       {
         worst = k;

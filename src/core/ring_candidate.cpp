@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "ring_deblur.h"
+#include "ring_amendment.h"
 #include "ring_ladder.h"
+#include "ring_openness.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -32,13 +33,18 @@ constexpr double SMALL_VISIBLE = .9;  // of such rings, at least: else a bend pu
 constexpr double NEEDED_GAIN = .8;    // where the rings are a target's only so
 constexpr double BENT_LOSS = .02;     // of evidence x visible share, at most
 
+// Of rings that something hides in the other directions.
+constexpr int OPEN_RINGS = 3;
+constexpr int OPEN_ROUNDS = 3;
+constexpr double LEAST_OPEN = .3;
+constexpr double MOST_OPEN = .9;
+
 constexpr double CLEAR_CONTRAST = .5;
 constexpr double CLEAR_SUPPORT = .45;
 constexpr double CLEAR_AGREEMENT = .85;
 constexpr double COVERED_RADIUS = 5;  // smaller disks have no edge of their own in the blur [px]
 constexpr double SPLIT_EVIDENCE = .8;
 constexpr double SPLIT_WIDTH = 7;  // narrower rings may merge [px]
-constexpr int MOST_SPLITS = 2;
 
 /** How far beyond the outermost boundary another may lie. */
 double profileReach(const Rings& rings)
@@ -51,22 +57,6 @@ double profileReach(const Rings& rings)
     inner = radius;
   }
   return rings.radii.back() + std::min(2.5 * widest, rings.radii.back()) + 3;
-}
-
-/** Directions in which at least half of the boundaries show: an occluder hides several rings at once. */
-AngleBins visibleDirections(const std::vector<Boundary>& boundaries)
-{
-  AngleBins visible = 0;
-  for (int angle = 0; angle < ANGLE_BINS; ++angle)
-  {
-    std::size_t shown = 0;
-    for (const Boundary& boundary : boundaries)
-    {
-      shown += (boundary.agreeing | boundary.supported) >> angle & 1;
-    }
-    visible |= 2 * shown >= boundaries.size() ? AngleBins{1} << angle : 0;
-  }
-  return visible;
 }
 
 /** Mean over the boundaries of coherence times the share of the visible directions that agree and have an edge. */
@@ -92,43 +82,6 @@ double shift(const RingFamily& family, const Rings& rings)
   return farthest;
 }
 
-/** Removes what the blur of other boundaries explains. */
-void removeBlur(RingCandidate& candidate)
-{
-  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
-  {
-    if (isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k))
-    {
-      candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
-      candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
-      continue;
-    }
-    ++k;
-  }
-}
-
-/** Adds the boundaries that the blur hides between narrow rings. */
-void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
-{
-  for (int split = 0; split < MOST_SPLITS; ++split)
-  {
-    std::vector<double> radii = radiiOf(candidate.boundaries);
-    const double radius = mergedBoundary(*candidate.profile, radii);
-    if (radius <= 0)
-    {
-      return;
-    }
-    const auto place = std::lower_bound(radii.begin(), radii.end(), radius);
-    const auto ring = place - radii.begin();
-    // The refinement has moved the boundaries since they were measured.
-    const double scale = candidate.rings.radii[ring] / *place;
-    radii.insert(place, radius);
-    candidate.boundaries.insert(candidate.boundaries.begin() + ring,
-                                measureBoundary(*candidate.profile, support, radii, static_cast<std::size_t>(ring)));
-    candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
-  }
-}
-
 /** Looks for boundaries and refines the rings with them, in turns. */
 bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::vector<RadialEdgel>& edgels)
 {
@@ -139,7 +92,9 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
   {
     const double reach = profileReach(rings);
     sampleProfile(bgr, rings.family, reach, *profile);
+    keepDirections(rings.open, *profile);
     collectRadialEdgels(map, rings.family, reach, .92, edgels);
+    keepDirections(rings.open, edgels);
     candidate.boundaries = findBoundaries(*profile, AngularSupport(edgels, reach), rings.radii);
     if (candidate.boundaries.size() < 2)
     {
@@ -192,8 +147,8 @@ void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::v
   }
 }
 
-/** Finds out which boundaries there are, inside those of the candidate's rings and outside. */
-bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
+/** Finds out which boundaries there are in the open directions, inside those of the candidate's rings and outside. */
+bool completeOpen(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
 {
   candidate.image_size = bgr.size();
   Rings& rings = candidate.rings;
@@ -211,6 +166,10 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
     splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
   }
   removeBlur(candidate);
+  if (~rings.open != 0)
+  {
+    removeUnseen(candidate);
+  }
   addPartialBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
   Boundary& disk = candidate.boundaries.front();
@@ -224,7 +183,64 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
                       rings.radii);
   return true;
 }
+
+/** The same from the directions alone in which nothing hides the rings; nothing is changed if that gives no target. */
+void tryOpenDirections(EdgelMap& map, const cv::Mat& bgr, const Rings& start, RingCandidate& candidate)
+{
+  EdgelMap own = map;  // these looks do not count: few rings come so far, 90 in 391 pictures of clutter
+  RingCandidate open;
+  open.rings = start;
+  std::vector<RadialEdgel> edgels;
+  for (int round = 0; round < OPEN_ROUNDS; ++round)
+  {
+    const AngleBins before = open.rings.open;
+    open.rings.open = openDirections(own, open.rings);
+    if (open.rings.open == before)
+    {
+      break;
+    }
+    const double seen = share(open.rings.open);
+    if (seen < LEAST_OPEN || seen > MOST_OPEN || !settle(own, bgr, open, edgels) ||
+        open.boundaries.size() < std::size_t{OPEN_RINGS})
+    {
+      return;
+    }
+  }
+  if (completeOpen(own, bgr, open) && isTarget(open, OPEN_RINGS))
+  {
+    candidate = std::move(open);
+  }
+}
+
+bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
+{
+  const Rings start = candidate.rings;
+  if (completeOpen(map, bgr, candidate) && isTarget(candidate, OPEN_RINGS))
+  {
+    return true;
+  }
+  if (start.radii.size() >= std::size_t{OPEN_RINGS})
+  {
+    tryOpenDirections(map, bgr, start, candidate);
+  }
+  return candidate.ring_count > 0;
+}
 }  // namespace
+
+AngleBins visibleDirections(const std::vector<Boundary>& boundaries)
+{
+  AngleBins visible = 0;
+  for (int angle = 0; angle < ANGLE_BINS; ++angle)
+  {
+    std::size_t shown = 0;
+    for (const Boundary& boundary : boundaries)
+    {
+      shown += (boundary.agreeing | boundary.supported) >> angle & 1;
+    }
+    visible |= 2 * shown >= boundaries.size() ? AngleBins{1} << angle : 0;
+  }
+  return visible;
+}
 
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, RingCandidate& candidate)
 {

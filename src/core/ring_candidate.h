@@ -23,6 +23,9 @@ struct RingCandidate
   double evidence = 0;  ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]
 };
 
+/** Directions in which at least half of the boundaries show: an occluder hides several rings at once. */
+AngleBins visibleDirections(const std::vector<Boundary>& boundaries);
+
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
 

@@ -163,6 +163,7 @@ bool refineRings(EdgelMap& map, double gate, bool perspective, Rings& rings)
 {
   std::vector<RadialEdgel> edgels;
   collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, FINE_COSINE, edgels);
+  keepDirections(rings.open, edgels);
   return refineWith(edgels, gate, perspective, FINE_POINTS, rings);
 }
 
@@ -171,6 +172,7 @@ bool bendRings(EdgelMap& map, Rings& rings)
   std::vector<RadialEdgel> edgels;
   const double gate = BENT_GATE * rings.radii.back();
   collectRadialEdgels(map, rings.family, rings.radii.back() + gate + 1, COARSE_COSINE, edgels);
+  keepDirections(rings.open, edgels);
   Rings bent = rings;
   if (!findBend(pointsOf(edgels, gate, FINE_POINTS, rings), bent.family, bent.radii) ||
       !refineRings(map, std::max(1.5, .4 * gate), true, bent) ||

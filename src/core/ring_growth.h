@@ -11,8 +11,9 @@ namespace omr
 struct Rings
 {
   RingFamily family;
-  std::vector<double> radii;  ///< on the family's plane, ascending [px]
-  double rms = 0;             ///< distance of the edgels to their boundaries [px]
+  std::vector<double> radii;       ///< on the family's plane, ascending [px]
+  double rms = 0;                  ///< distance of the edgels to their boundaries [px]
+  AngleBins open = ~AngleBins{0};  ///< directions that count: in the others something hides the rings
 };
 
 /**

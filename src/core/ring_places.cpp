@@ -18,7 +18,8 @@ bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 
 bool isUndisputed(const RingCandidate& candidate)
 {
-  return candidate.evidence * candidate.visible > UNDISPUTED || candidate.evidence > UNDISPUTED_EVIDENCE;
+  return candidate.evidence * candidate.visible > UNDISPUTED ||
+         (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE);
 }
 
 double score(const RingCandidate& candidate)

@@ -177,6 +177,7 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
   profile.grey.resize(static_cast<std::size_t>(RingProfile::ANGLES) * profile.count);
   profile.color.resize(profile.grey.size());
   profile.inside.assign(RingProfile::ANGLES, profile.count);
+  profile.open = ~AngleBins{0};
   Places places;
   for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
   {
@@ -198,6 +199,20 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
       color[i] = logarithm(channels);
     }
   }
+}
+
+void keepDirections(AngleBins open, RingProfile& profile)
+{
+  profile.open = open;
+  for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
+  {
+    profile.inside[angle] = (open >> angle & 1) != 0 ? profile.inside[angle] : 0;
+  }
+}
+
+int leastDirections(const RingProfile& profile)
+{
+  return __builtin_popcountll(profile.open) / 2;
 }
 
 bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,

@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "radial_edgels.h"
 #include "ring_family.h"
 
 namespace omr
@@ -14,13 +15,14 @@ using LogColor = cv::Vec3f;
 /** Colours around a family's centre along rays, in the plane's polar coordinates. */
 struct RingProfile
 {
-  static constexpr int ANGLES = 64;
+  static constexpr int ANGLES = ANGLE_BINS;
 
-  double step = 0;              ///< between the samples of a ray [px]
-  int count = 0;                ///< samples a ray, from the centre outwards
-  std::vector<cv::Vec3f> grey;  ///< ANGLES x count: B, G, R [0, 255]
-  std::vector<LogColor> color;  ///< the same as logarithms
-  std::vector<int> inside;      ///< per angle: samples of the ray that lie inside the image
+  double step = 0;                 ///< between the samples of a ray [px]
+  int count = 0;                   ///< samples a ray, from the centre outwards
+  std::vector<cv::Vec3f> grey;     ///< ANGLES x count: B, G, R [0, 255]
+  std::vector<LogColor> color;     ///< the same as logarithms
+  std::vector<int> inside;         ///< per angle: samples of the ray that count: inside the image, 0 where hidden
+  AngleBins open = ~AngleBins{0};  ///< the directions that are not hidden
 
   const cv::Vec3f* greyRay(int angle) const
   {
@@ -41,6 +43,12 @@ struct RingProfile
  * @param profile    receives the result; its memory is reused.
  */
 void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile);
+
+/** Leaves out the directions in which something hides the rings. */
+void keepDirections(AngleBins open, RingProfile& profile);
+
+/** Directions that must count where something is measured: half of the open ones. */
+int leastDirections(const RingProfile& profile);
 
 /** Of the width of a ring, without what its edges blur. */
 enum class RingPart

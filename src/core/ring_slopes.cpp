@@ -12,12 +12,11 @@ namespace omr
 namespace
 {
 constexpr int ANGLES = RingProfile::ANGLES;
-constexpr int MIN_ANGLES = ANGLES / 2;  // that must lie inside the image
-constexpr double MIN_RADIUS = 1.8;      // [px]; closer to the centre all directions see the same pixels
-constexpr double MIN_SLOPE = .01;       // over two pixels, relative to twice the brightness
-constexpr float DARK_LEVEL = 48;        // added to twice the brightness [grey levels]
-constexpr double VALLEY = .75;          // of the slope between two edges, relative to the weaker one
-constexpr double TURN = .5;             // cosine between the slopes of two edges of a narrow ring
+constexpr double MIN_RADIUS = 1.8;  // [px]; closer to the centre all directions see the same pixels
+constexpr double MIN_SLOPE = .01;   // over two pixels, relative to twice the brightness
+constexpr float DARK_LEVEL = 48;    // added to twice the brightness [grey levels]
+constexpr double VALLEY = .75;      // of the slope between two edges, relative to the weaker one
+constexpr double TURN = .5;         // cosine between the slopes of two edges of a narrow ring
 
 using Values = std::array<float, ANGLES>;
 
@@ -59,7 +58,7 @@ cv::Vec3f medianSlope(const RingProfile& profile, int i, int reach)
     }
   }
   cv::Vec3f slope;
-  for (int c = 0; c < 3 && count >= MIN_ANGLES; ++c)
+  for (int c = 0; c < 3 && count >= leastDirections(profile); ++c)
   {
     slope[c] = isSteep(sum[c], count) ? median(values[c], count) : 0;
   }

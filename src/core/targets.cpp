@@ -22,7 +22,7 @@ constexpr double UNREAD_RMS = .085;    // [px]
 constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
 // Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
 // 42 px wide. Small ones must be very clear in any case: at 15 to 17 px these eyes have .89 to .94, targets below 30 px
-// .956 and more.
+// .956 and more. An eye of 19 px has .97, but no colour in its middle: the disk of small ones must be read.
 constexpr double MEDIUM_DIAMETER = 50;  // [px]
 constexpr double SMALL_DIAMETER = 30;   // [px]
 // Clearness: evidence x visible share. With unknown rings the least: lenses, eyes and signs have rings too, and no
@@ -55,7 +55,9 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   const float diameter = std::min(size.width, size.height);
   if (counted == 3 && diameter < MEDIUM_DIAMETER)
   {
-    return unknown <= 1 && (clearness > VERY_CLEAR || (unknown == 0 && diameter > SMALL_DIAMETER));
+    const bool is_small = diameter < SMALL_DIAMETER;
+    return unknown <= (is_small && target.colors[0] == '?' ? 0 : 1) &&
+           (clearness > VERY_CLEAR || (unknown == 0 && !is_small));
   }
   return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }

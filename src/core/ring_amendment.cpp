@@ -1,0 +1,66 @@
+#include "ring_amendment.h"
+
+#include <algorithm>
+
+#include "ring_deblur.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int MOST_SPLITS = 2;
+constexpr double LEAST_SHOWN = .12;  // of the directions
+
+/** Removes the boundaries of which the predicate is true of their index, while three are left. */
+template <typename Predicate>
+void removeIf(RingCandidate& candidate, Predicate&& predicate)
+{
+  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
+  {
+    if (predicate(k))
+    {
+      candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
+      candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
+      continue;
+    }
+    ++k;
+  }
+}
+}  // namespace
+
+void removeBlur(RingCandidate& candidate)
+{
+  removeIf(candidate, [&](std::size_t k) {
+    return isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k);
+  });
+}
+
+void removeUnseen(RingCandidate& candidate)
+{
+  removeIf(candidate, [&](std::size_t k) {
+    return share(candidate.boundaries[k].agreeing & candidate.boundaries[k].supported) < LEAST_SHOWN;
+  });
+}
+
+void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
+{
+  for (int split = 0; split < MOST_SPLITS; ++split)
+  {
+    std::vector<double> radii = radiiOf(candidate.boundaries);
+    const double radius = mergedBoundary(*candidate.profile, radii);
+    if (radius <= 0)
+    {
+      return;
+    }
+    const auto place = std::lower_bound(radii.begin(), radii.end(), radius);
+    const auto ring = place - radii.begin();
+    // The refinement has moved the boundaries since they were measured.
+    const double scale = candidate.rings.radii[ring] / *place;
+    radii.insert(place, radius);
+    candidate.boundaries.insert(candidate.boundaries.begin() + ring,
+                                measureBoundary(*candidate.profile, support, radii, static_cast<std::size_t>(ring)));
+    candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
+  }
+}
+
+}  // namespace omr

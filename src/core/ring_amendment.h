@@ -1,0 +1,19 @@
+#ifndef OUTDOOR_OMR_CORE_RING_AMENDMENT_H
+#define OUTDOOR_OMR_CORE_RING_AMENDMENT_H
+
+#include "ring_candidate.h"
+
+namespace omr
+{
+/** Removes what the blur of other boundaries explains. */
+void removeBlur(RingCandidate& candidate);
+
+/** Removes boundaries that hardly an edge shows: where occluders leave few directions, their edges make such ones. */
+void removeUnseen(RingCandidate& candidate);
+
+/** Adds the boundaries that the blur hides between narrow rings. */
+void splitMergedRings(const AngularSupport& support, RingCandidate& candidate);
+
+}  // namespace omr
+
+#endif

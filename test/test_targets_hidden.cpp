@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "../src/core/ring_openness.h"
+#include "target_views.h"
+
+using omr::AngleBins;
+using omr::Target;
+using omr::test::findTargetsIn;
+
+/** A bar across the picture, through a point beside the target's centre. */
+void drawBar(cv::Mat& image, const cv::Point2d& offset, double degrees, int width, const cv::Scalar& color)
+{
+  const cv::Point2d along(std::cos(degrees * CV_PI / 180), std::sin(degrees * CV_PI / 180));
+  const cv::Point2d point = cv::Point2d(240, 180) + offset;
+  cv::line(image, point - 600 * along, point + 600 * along, color, width, cv::LINE_AA);
+}
+
+/** A target of which three bars hide half. */
+cv::Mat hideHalf(const TargetScene& scene)
+{
+  cv::Mat image = renderTarget(scene);
+  drawBar(image, {-62, 0}, 80, 36, {120, 125, 130});
+  drawBar(image, {66, 0}, 100, 30, {60, 130, 70});
+  drawBar(image, {0, 10}, -25, 34, {90, 150, 190});
+  cv::GaussianBlur(image, image, cv::Size(), .7);
+  return image;
+}
+
+TEST(HiddenTargets, barsOverHalfOfTheRings)
+{
+  // Without the look at the open directions alone neither is found; and where the bars hide an outermost ring more than
+  // the others, as that of the second, it is a ring only because its edges lie on a circle.
+  TargetScene scene;
+  for (const std::string colors : {"RWPGB", "BWRWP"})
+  {
+    scene.colors = colors;
+    const std::vector<Target> targets = findTargetsIn(hideHalf(scene));
+    ASSERT_EQ(1U, targets.size()) << colors;
+    EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
+    ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      EXPECT_TRUE(targets[0].colors[k] == '?' || targets[0].colors[k] == colors[k]) << targets[0].colors;
+    }
+  }
+}
+
+TEST(HiddenTargets, theSidesOfASquareAreNoRing)
+{
+  // The sheet's sides touch a circle that resembles another ring.
+  TargetScene scene;
+  scene.ground = {.05, .05, .05};
+  for (const double half_side : {112., 118.})
+  {
+    scene.sheet_half_side = half_side;
+    const std::vector<Target> targets = findTargetsIn(hideHalf(scene));
+    ASSERT_EQ(1U, targets.size());
+    EXPECT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
+  }
+}
+
+TEST(HiddenTargets, archesWithBarsAreNone)
+{
+  TargetScene scene;
+  scene.colors = "PWPWP";
+  for (const double degrees : {80., 100.})
+  {
+    cv::Mat image = renderTarget(scene);
+    cv::rectangle(image, cv::Rect(0, 185, image.cols, image.rows - 185), cv::Scalar::all(200), cv::FILLED);
+    drawBar(image, {-30, 0}, degrees, 16, {120, 125, 130});
+    drawBar(image, {45, 0}, degrees, 16, {60, 130, 70});
+    EXPECT_TRUE(findTargetsIn(image).empty()) << degrees;
+  }
+}
+
+TEST(HiddenTargets, openDirectionsAreThoseWithTheEdges)
+{
+  TargetScene scene;
+  cv::Mat image = renderTarget(scene);
+  cv::rectangle(image, cv::Rect(0, 0, 238, 178), cv::Scalar::all(120), cv::FILLED);  // a quarter: 180 to 270 degrees
+  omr::EdgelMap map(image);
+  omr::Rings rings;
+  rings.family.center = {240, 180};
+  rings.radii = scene.radii;
+  const AngleBins open = omr::openDirections(map, rings);
+  const AngleBins hidden = AngleBins{0x3FFF} << 33;
+  EXPECT_EQ(0U, open & hidden);
+  EXPECT_GT(omr::share(open), .7);
+}
+
+TEST(HiddenTargets, sidesOfSpreadDirectionsAndOfHalf)
+{
+  EXPECT_NEAR(0, omr::onesidedness(~AngleBins{0}), 1e-9);
+  EXPECT_NEAR(0, omr::onesidedness(0x00FF00FF00FF00FF), 1e-9);
+  EXPECT_NEAR(.125, omr::widestGap(0x00FF00FF00FF00FF), 1e-9);
+  EXPECT_NEAR(2 / CV_PI, omr::onesidedness(0xFFFFFFFF), .01);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
