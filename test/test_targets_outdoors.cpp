@@ -154,8 +154,8 @@ TEST(Targets, aCoveredDiskIsUnknownAndKeepsItsPlace)
     const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
     ASSERT_EQ(1U, targets.size());
     ASSERT_EQ(5U, targets[0].colors.size()) << targets[0].colors;
-    EXPECT_EQ('?', targets[0].colors[0]);
-    EXPECT_EQ("GB", targets[0].colors.substr(3)) << targets[0].colors;
+    // A ring whose outer boundary shows is read, though the cover hides its inner one.
+    EXPECT_EQ(cover > 40 ? "?\?PGB" : "?WPGB", targets[0].colors);
     EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), .3);
   }
 }

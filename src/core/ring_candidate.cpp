@@ -173,8 +173,8 @@ bool completeOpen(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   addPartialBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
   Boundary& disk = candidate.boundaries.front();
-  if (disk.contrast > CLEAR_CONTRAST && disk.radius > COVERED_RADIUS && share(disk.supported) < CLEAR_SUPPORT &&
-      disk.agreement < CLEAR_AGREEMENT)
+  if (disk.contrast > CLEAR_CONTRAST && disk.radius > COVERED_RADIUS &&
+      share(disk.supported) < CLEAR_SUPPORT * share(rings.open) && disk.agreement < CLEAR_AGREEMENT)
   {
     disk.shown = false;  // so strong a step has an edge: what is seen is a thing on the disk
   }

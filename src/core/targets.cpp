@@ -62,10 +62,10 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }
 
-/** Whether both boundaries of the ring show. */
+/** Whether the ring's outer boundary shows: the colour inside it is the ring's, whatever hides its inner boundary. */
 bool isSeen(const std::vector<Boundary>& boundaries, std::size_t ring)
 {
-  return boundaries[ring].shown && (ring == 0 || boundaries[ring - 1].shown);
+  return boundaries[ring].shown;
 }
 
 constexpr double SHARP_WIDTH = 7;  // of rings that show their colour in each direction without the blur's help [px]
