@@ -193,6 +193,7 @@ TEST(CornerFit, staysPutWhereItWouldLeaveTheCorner)
   edge.colRange(30, 60) = 200;
   const LocalFrame on_edge{{29.4F, 30}, {12, 0}, {0, 12}};
   EXPECT_NEAR(omr::fitCorner(edge, on_edge).position.y, 30, 0.01);
+  EXPECT_LT(omr::fitCorner(edge, on_edge).squareness, 0.5);
   const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 0, 0);
   Render render({400, 300});
   render.addBoard(5, 7, board);
@@ -204,6 +205,16 @@ TEST(CornerFit, staysPutWhereItWouldLeaveTheCorner)
     const cv::Point2f move = omr::fitCorner(grey, start).position - start.node;
     EXPECT_LE(std::max(std::abs(move.x), std::abs(move.y)), 0.3 * 25) << off;
   }
+}
+
+TEST(CornerFit, tellsFourSquaresFromTheOuterCornerOfOne)
+{
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);
+  Render render({400, 300});
+  render.addBoard(5, 7, board);
+  const cv::Mat grey = omr::makeFrame(render.picture()).raw_grey;
+  EXPECT_GT(omr::fitCorner(grey, frameAt(board, 2, 1)).squareness, 5);
+  EXPECT_NEAR(omr::fitCorner(grey, frameAt(board, 2, 0)).squareness, 1, 0.1);
 }
 
 int main(int argc, char** argv)

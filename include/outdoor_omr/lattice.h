@@ -75,6 +75,9 @@ class Lattice
   /** Columns x, rows y of the nodes; the extents of the board once they are settled. */
   cv::Rect box;
 
+  /** As in the picture of a fisheye: predictions take cubic terms, and are vague all the same. */
+  bool bends_strongly = false;
+
   const LocalFrame& seedFrame() const
   {
     return seed_;

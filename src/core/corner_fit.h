@@ -14,6 +14,9 @@ struct CornerFit
   /** RMS of what the picture lacks over its contrast. Among the corners of one board that of one which something covers
    * in part is larger: the limit of the better ones is narrow. Negative: not fitted, the position is the given one. */
   float misfit = -1;
+  /** Difference between opposite quadrants and the others, in the larger step across an edge: of the outer corner of a
+   * square 1, of an edge 0, of four squares much more but where a shadow's edge runs along theirs. */
+  float squareness = 0;
 };
 
 /**

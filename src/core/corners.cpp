@@ -6,6 +6,7 @@
 #include "corner_fit.h"
 #include "outdoor_omr/lattice_model.h"
 #include "outdoor_omr/lattice_prediction.h"
+#include "outdoor_omr/lattice_side.h"
 
 namespace omr
 {
@@ -48,12 +49,20 @@ void weightCorners(const std::vector<float>& misfits, float noise, Lattice& latt
   }
 }
 
-/** Moves the corners to where their pictures fit. @param model through them, if it explains them; none otherwise.
- * @return misfits of all nodes, see CornerFit. */
+/**
+ * Moves the corners to where their pictures fit.
+ *
+ * @param model through them, if it explains them; none otherwise: then nothing but its picture speaks for a corner, and
+ *              those without one, up to a third, are removed.
+ * @return misfits of all nodes, see CornerFit.
+ */
 std::vector<float> fitCorners(const cv::Mat& grey, const LatticeModel* model, Lattice& lattice)
 {
+  // Where no surface tells, in pictures of fisheyes, an outer corner passed for one 15 px off.
+  constexpr float MIN_SQUARENESS = 1.2F;
   const Lattice before = lattice;
   std::vector<float> misfits(before.box.area(), -1);
+  std::vector<Node> unfitted;
   for (int i = before.box.y; i < before.box.br().y; ++i)
   {
     for (int j = before.box.x; j < before.box.br().x; ++j)
@@ -78,7 +87,18 @@ std::vector<float> fitCorners(const cv::Mat& grey, const LatticeModel* model, La
       }
       const CornerFit fit = fitCorner(grey, corner);
       lattice.at(i, j).position = fit.position;
+      if (model == nullptr && fit.squareness < MIN_SQUARENESS)
+      {
+        unfitted.push_back({i, j});
+      }
       misfits[(i - before.box.y) * before.box.width + j - before.box.x] = fit.misfit;
+    }
+  }
+  if (3 * static_cast<int>(unfitted.size()) <= before.count())
+  {
+    for (const Node& node : unfitted)
+    {
+      lattice.remove(node.row, node.col);
     }
   }
   return misfits;
@@ -89,8 +109,9 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
 {
   constexpr double RIDGE = 0.5;
   constexpr double MAX_RMS = 0.8;  // px; blurred and shadowed boards have 0.3 to 0.7 (with 0.35: degrade 0.17 for 0.10)
-  constexpr float MODEL_SHARE = 0.8F;  // of the surface in the result
-  constexpr float NOISE = 0.015F;      // px; corners have it on rendered boards
+  constexpr float MODEL_SHARE = 0.8F;   // of the surface in the result
+  constexpr int PREDICTION_WINDOW = 3;  // nodes
+  constexpr float NOISE = 0.015F;       // px; corners have it on rendered boards
   // The second sees whether the surface bears the weights of the first: a crumpled sheet does not (one board of the
   // blender set 0.1 -> 0.47 px with one).
   constexpr int WEIGHTINGS = 2;
@@ -127,7 +148,8 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
       seen.push_back(node.found && !refuted);
       if (!seen.back())
       {
-        node.position = smooth;
+        LocalFrame near;
+        node.position = explains || !predictNode(lattice, i, j, PREDICTION_WINDOW, near) ? smooth : near.node;
       }
       else if (explains)
       {

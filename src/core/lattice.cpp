@@ -19,6 +19,7 @@ void Lattice::start(const LocalFrame& seed, const CornerLook& corner)
   seed_sign_ = corner.sign;
   count_ = 0;
   box = cv::Rect();
+  bends_strongly = false;
   put(SEED, SEED, corner);
 }
 

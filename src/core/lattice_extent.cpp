@@ -142,20 +142,12 @@ SideEvidence sideEvidence(const Lattice& lattice, const Frame& frame, Side side,
   return is_last && border.goes_on <= 1 + border.seen / 2 ? SideEvidence::rim : SideEvidence::none;
 }
 
-}  // namespace
-
-void dropOutliers(Lattice& lattice)
+/** The corners that are far from where the model has them. */
+std::vector<Node> outliersOf(const Lattice& lattice, const LatticeModel& model)
 {
-  constexpr int MIN_CORNERS = 12;
   constexpr double MIN_RESIDUAL = 0.8;         // px
   constexpr double MIN_RESIDUAL_SHARE = 0.05;  // squares
   constexpr double MAX_MEDIANS = 5;
-  LatticeModel model;
-  if (lattice.count() < MIN_CORNERS || lattice.box.width < 3 || lattice.box.height < 3 ||
-      !model.fit(lattice, lattice.count() >= 30 ? LatticeModel::cubic : LatticeModel::quadratic, 0.1))
-  {
-    return;
-  }
   std::vector<Node> outliers;
   const cv::Rect box = lattice.box;
   for (int i = box.y; i < box.br().y; ++i)
@@ -173,13 +165,42 @@ void dropOutliers(Lattice& lattice)
       }
     }
   }
-  // Where a third does not fit, it is the model that is wrong.
-  if (static_cast<int>(outliers.size()) * 3 <= lattice.count())
+  return outliers;
+}
+
+}  // namespace
+
+void dropOutliers(Lattice& lattice)
+{
+  constexpr int MIN_CORNERS = 12;
+  constexpr int MIN_CUBIC_CORNERS = 20;  // twice its terms
+  constexpr int MIN_SMOOTH_CORNERS = 30;
+  constexpr double RIDGE = 0.1;
+  const int count = lattice.count();
+  LatticeModel model;
+  if (count < MIN_CORNERS || lattice.box.width < 3 || lattice.box.height < 3 ||
+      !model.fit(lattice, count >= MIN_SMOOTH_CORNERS ? LatticeModel::cubic : LatticeModel::quadratic, RIDGE))
   {
-    for (const Node& node : outliers)
-    {
-      lattice.remove(node.row, node.col);
-    }
+    return;
+  }
+  std::vector<Node> outliers = outliersOf(lattice, model);
+  // Where a third does not fit, it is the model that is wrong.
+  if (outliers.empty() || static_cast<int>(outliers.size()) * 3 > count)
+  {
+    return;
+  }
+  // So it is where a finer one leaves half of them: a fisheye bends more than a curved plate.
+  const bool finer = count >= MIN_SMOOTH_CORNERS
+                         ? model.fitSmooth(lattice, RIDGE)
+                         : count >= MIN_CUBIC_CORNERS && model.fit(lattice, LatticeModel::cubic, RIDGE);
+  if (finer)
+  {
+    const std::vector<Node> left = outliersOf(lattice, model);
+    outliers = 2 * left.size() <= outliers.size() ? left : outliers;
+  }
+  for (const Node& node : outliers)
+  {
+    lattice.remove(node.row, node.col);
   }
 }
 

@@ -40,6 +40,46 @@ LocalFrame predictFromLine(const Lattice& lattice, const Support& support, int r
   frame.node = frame.at(static_cast<float>(col - support.nearest_col), static_cast<float>(row - support.nearest_row));
   return frame;
 }
+
+/** With cubic terms as well: towards the edge of a fisheye's picture squares shrink faster than a quadratic can follow.
+ * Leaves the prediction as it is where there are too few corners. */
+void predictStronglyBent(const Lattice& lattice, int row, int col, int window, LocalFrame& predicted)
+{
+  constexpr int CUBIC = 10;
+  constexpr double RIDGE = 0.04;  // half way to the quadratic: both miss by as much, to either side
+  constexpr int MIN_CORNERS = 14;
+  constexpr int MIN_LINES = 4;
+  const cv::Rect rows_cols = lattice.box & cv::Rect(col - window, row - window, 2 * window + 1, 2 * window + 1);
+  PointFit<CUBIC> fit;
+  int count = 0;
+  cv::Rect spread;
+  for (int i = rows_cols.y; i < rows_cols.br().y; ++i)
+  {
+    for (int j = rows_cols.x; j < rows_cols.br().x; ++j)
+    {
+      if (lattice.found(i, j) && (i != row || j != col))
+      {
+        const double x = j - col;
+        const double y = i - row;
+        fit.add({1, x, y, x * y, x * x, y * y, x * x * x, x * x * y, x * y * y, y * y * y}, lattice.at(i, j).position,
+                1 / (0.3 + x * x + y * y));
+        spread = count == 0 ? cv::Rect(j, i, 1, 1) : spread | cv::Rect(j, i, 1, 1);
+        ++count;
+      }
+    }
+  }
+  for (int term = 3; term < CUBIC; ++term)
+  {
+    fit.addRidge(term, RIDGE);
+  }
+  cv::Point2d coefficients[CUBIC];
+  if (count < MIN_CORNERS || std::min(spread.width, spread.height) < MIN_LINES || !fit.solve(CUBIC, coefficients))
+  {
+    return;
+  }
+  predicted = {coefficients[0], coefficients[1], coefficients[2]};
+}
+
 }  // namespace
 
 bool predictNode(const Lattice& lattice, int row, int col, int window, LocalFrame& predicted)
@@ -97,6 +137,10 @@ bool predictNode(const Lattice& lattice, int row, int col, int window, LocalFram
       return false;
     }
     predicted = {coefficients[0], coefficients[1], coefficients[2]};
+    if (lattice.bends_strongly)
+    {
+      predictStronglyBent(lattice, row, col, window + 1, predicted);
+    }
   }
   const float area = cross(predicted.u, predicted.v);
   return area * cross(lattice.seedFrame().u, lattice.seedFrame().v) > 0 && std::abs(area) > MIN_AREA;
