@@ -21,6 +21,22 @@ TEST_F(Locate, sectionNeedsAnotherMarker)
   expectCertain(locate(view, {plate()}), "plate", pose_);
 }
 
+TEST_F(Locate, sectionThatIsNoBoardByItself)
+{
+  PartView view(camera_);
+  view.addSection(flatBoard(), pose_, cv::Rect(3, 1, 6, 4));
+  view.add(flatBoard(5, 7), poseAt(-0.5, 0, 2));  // of another thing
+  omr::Markers markers;
+  markers.sections = {view.checkerboards[0]};
+  markers.checkerboards = {view.checkerboards[1]};
+  EXPECT_TRUE(locateParts(markers, {plate()}, camera_).empty());
+  view.add(RIGHT, pose_);
+  markers.targets = view.targets;
+  const std::vector<Sighting> sightings = locateParts(markers, {plate()}, camera_);
+  expectCertain(sightings, "plate", pose_);
+  EXPECT_EQ(sightings[0].candidates[0].checkerboards, std::vector<int>({1}));
+}
+
 TEST_F(Locate, sectionStandingOnEnd)
 {
   // Five columns and seven rows are seen: the detector's rows are the board's columns.

@@ -6,6 +6,7 @@
 
 #include "outdoor_omr/camera.h"
 #include "outdoor_omr/checkerboard.h"
+#include "outdoor_omr/markers.h"
 #include "outdoor_omr/parts.h"
 #include "outdoor_omr/pose.h"
 #include "outdoor_omr/target.h"
@@ -17,7 +18,7 @@ struct PartPose
 {
   std::string part;
   Pose pose;
-  std::vector<int> checkerboards;  ///< indices of the detected boards
+  std::vector<int> checkerboards;  ///< indices of the detected boards, those of sections after those of the boards
   std::vector<int> targets;        ///< indices of the detected targets
 };
 
@@ -42,15 +43,18 @@ struct Sighting
  * excluded by a marker that speaks against it alone: that may be misread. What only such markers remain of is not
  * reported: it is a foreign thing with a like board.
  *
- * A board whose size is not certain carries a part only together with another marker of it, and as any section of the
- * part's board. A part is at as many places as it has copies: where more groups of markers carry it, those with the
- * most have it, and equals are the candidates of one sighting.
+ * A board whose size is not certain, or a section of one, carries a part only together with another marker of it, and
+ * as any section of the part's board. A part is at as many places as it has copies: where more groups of markers carry
+ * it, those with the most have it, and equals are the candidates of one sighting.
  *
  * @param camera must be that of the image in which the markers were found.
  * @return one for each group of markers that fits a part; a marker belongs to one sighting.
  */
 std::vector<Sighting> locateParts(const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
                                   const std::vector<Part>& parts, const Camera& camera);
+
+/** The same from all markers, sections of boards among them. */
+std::vector<Sighting> locateParts(const Markers& markers, const std::vector<Part>& parts, const Camera& camera);
 
 }  // namespace omr
 

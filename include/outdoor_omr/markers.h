@@ -14,6 +14,7 @@ namespace omr
 struct Markers
 {
   std::vector<Checkerboard> checkerboards;
+  std::vector<Checkerboard> sections;  ///< of boards hidden in part, of unknown size: see findCheckerboards()
   std::vector<Target> targets;
   std::vector<Candidate> candidates;  ///< empty unless Settings::candidate_mode asks for them
   std::vector<StepTime> times;        ///< in the order of the steps

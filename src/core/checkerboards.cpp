@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "board_judgement.h"
+#include "board_sections.h"
 #include "edge_reading.h"
 #include "outdoor_omr/border.h"
 #include "outdoor_omr/checkerboard_order.h"
@@ -116,8 +117,10 @@ void growByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence, 
   }
 }
 
-/** Settles a grown lattice by its corners. @param sides receive what is seen of its sides. */
-bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std::array<SideEvidence, 4>& sides)
+/** Settles a grown lattice by its corners. @param sides receive what is seen of its sides. @param sections receive what
+ * may be a part of a board. */
+bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std::array<SideEvidence, 4>& sides,
+                     BoardSections& sections)
 {
   if (!mayBePart(lattice, looker))
   {
@@ -131,6 +134,7 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
   sides = settleExtent(lattice, looker);
   if (!isBoard(lattice, sides))
   {
+    sections.add(lattice);
     noteFailure(lattice, 2, map);
     return false;
   }
@@ -157,20 +161,6 @@ bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence
   return true;
 }
 
-/** Number of the lattice's corners that lie on the board of the outline. */
-int countOn(const Lattice& lattice, const std::vector<cv::Point2f>& outline)
-{
-  int count = 0;
-  for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
-  {
-    for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
-    {
-      count += lattice.found(i, j) && cv::pointPolygonTest(outline, lattice.at(i, j).position, false) > 0 ? 1 : 0;
-    }
-  }
-  return count;
-}
-
 /** Adds a board; of boards in one place the one with most corners stays. */
 void addCandidate(Candidate&& candidate, std::vector<Candidate>& candidates)
 {
@@ -190,7 +180,7 @@ void addCandidate(Candidate&& candidate, std::vector<Candidate>& candidates)
 }
 
 void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap& map,
-                std::vector<Candidate>& candidates)
+                std::vector<Candidate>& candidates, BoardSections& sections)
 {
   Lattice lattice;
   for (const Seed& seed : seeds)
@@ -206,8 +196,9 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     std::array<SideEvidence, 4> sides;
     const Growth growth = growFromSeed(seed, looker, lattice, map);
-    if (growth == Growth::none || !((growth == Growth::grown && settleByCorners(lattice, looker, map, sides)) ||
-                                    settleByEdges(lattice, looker.frame(), sides)))
+    if (growth == Growth::none ||
+        !((growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
+          settleByEdges(lattice, looker.frame(), sides)))
     {
       continue;
     }
@@ -257,17 +248,34 @@ std::vector<Checkerboard> finishAll(std::vector<Candidate>& candidates, const Fr
   }
   return boards;
 }
+
+std::vector<Checkerboard> finishSections(const BoardSections& sections, const std::vector<Candidate>& boards,
+                                         const Frame& frame, const RegionMap& regions)
+{
+  std::vector<std::vector<cv::Point2f>> outlines;
+  std::transform(boards.begin(), boards.end(), std::back_inserter(outlines),
+                 [](const Candidate& board) { return board.outline; });
+  std::vector<Candidate> candidates;
+  for (const Lattice& lattice : sections.beside(outlines))
+  {
+    candidates.push_back(
+        {lattice, {SideEvidence::none, SideEvidence::none, SideEvidence::none, SideEvidence::none}, {}, {}});
+  }
+  return finishAll(candidates, frame, regions);
+}
 }  // namespace
 
 std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap& regions, const Settings& settings,
-                                            const std::function<void(const std::vector<Checkerboard>&)>& use_first)
+                                            const std::function<void(const std::vector<Checkerboard>&)>& use_first,
+                                            std::vector<Checkerboard>* sections)
 {
   constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
+  BoardSections found_sections;
   const auto search = [&](const std::vector<Seed>& seeds) {
     CornerLooker looker(frame, settings.checkerboard_looks);
-    findBoards(seeds, looker, map, candidates);
+    findBoards(seeds, looker, map, candidates, found_sections);
   };
   search(pairNeighbours(frame, regions));
   if (use_first)
@@ -279,6 +287,10 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
   {
     const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
     search(groupSaddlePoints(frame, level, faint, map));
+  }
+  if (sections != nullptr)
+  {
+    *sections = finishSections(found_sections, candidates, frame, regions);
   }
   return finishAll(candidates, frame, regions);
 }

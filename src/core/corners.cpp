@@ -115,6 +115,9 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
   // The second sees whether the surface bears the weights of the first: a crumpled sheet does not (one board of the
   // blender set 0.1 -> 0.47 px with one).
   constexpr int WEIGHTINGS = 2;
+  // Of a corner that counts as measured: it is off by three times the noise, and others say where it is. As measured
+  // ones they would bend poses: the worst of 220 plates hidden to 30 % at 4 to 6 m 11 -> 3 mm.
+  constexpr float MIN_WEIGHT = 0.1F;
   LatticeModel model;
   if (!model.fitSmooth(lattice, RIDGE))
   {
@@ -145,7 +148,7 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
       LatticeNode& node = lattice.at(i, j);
       const cv::Point2f smooth = model.at(i, j);
       const bool refuted = explains && model.isOutlier(length(node.position - smooth));
-      seen.push_back(node.found && !refuted);
+      seen.push_back(node.found && !refuted && node.weight > MIN_WEIGHT);
       if (!seen.back())
       {
         LocalFrame near;

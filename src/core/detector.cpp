@@ -78,7 +78,7 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   };
   if (settings.detect_checkerboards)
   {
-    markers.checkerboards = findCheckerboards(frame, regions, settings, expect);
+    markers.checkerboards = findCheckerboards(frame, regions, settings, expect, &markers.sections);
     targets.confirm(markers.checkerboards);
     watch.step("checkerboards");
   }

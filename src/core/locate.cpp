@@ -228,4 +228,11 @@ std::vector<Sighting> locateParts(const std::vector<Checkerboard>& checkerboards
   }
 }
 
+std::vector<Sighting> locateParts(const Markers& markers, const std::vector<Part>& parts, const Camera& camera)
+{
+  std::vector<Checkerboard> checkerboards = markers.checkerboards;
+  checkerboards.insert(checkerboards.end(), markers.sections.begin(), markers.sections.end());
+  return locateParts(checkerboards, markers.targets, parts, camera);
+}
+
 }  // namespace omr

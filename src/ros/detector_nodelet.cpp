@@ -129,7 +129,7 @@ class DetectorNodelet : public CheckedNodelet
     settings.overlay_regions = settings.overlay_regions && draw;
     const cv::Mat bgr = toBgr(image);
     const Markers markers = detector_->detect(bgr, settings);
-    publish(checkerboards_, toMessage(image->header, bgr.size(), markers.checkerboards));
+    publish(checkerboards_, toMessage(image->header, bgr.size(), markers.checkerboards, markers.sections));
     publish(targets_, toMessage(image->header, bgr.size(), markers.targets));
     if (settings.candidate_mode == CandidateMode::all)
     {

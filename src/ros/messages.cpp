@@ -79,12 +79,17 @@ Array emptyArray(const std_msgs::Header& header, const cv::Size& size)
 }  // namespace
 
 outdoor_omr::CheckerboardArray toMessage(const std_msgs::Header& header, const cv::Size& size,
-                                         const std::vector<Checkerboard>& checkerboards)
+                                         const std::vector<Checkerboard>& checkerboards,
+                                         const std::vector<Checkerboard>& sections)
 {
   auto message = emptyArray<outdoor_omr::CheckerboardArray>(header, size);
   for (const Checkerboard& board : checkerboards)
   {
     message.checkerboards.push_back(toMessage(board));
+  }
+  for (const Checkerboard& section : sections)
+  {
+    message.sections.push_back(toMessage(section));
   }
   return message;
 }

@@ -13,9 +13,10 @@
 
 namespace omr
 {
-/** @param header of the image, copied. @param size of the image [px]. */
+/** @param header of the image, copied. @param size of the image [px]. @param sections see Markers. */
 outdoor_omr::CheckerboardArray toMessage(const std_msgs::Header& header, const cv::Size& size,
-                                         const std::vector<Checkerboard>& checkerboards);
+                                         const std::vector<Checkerboard>& checkerboards,
+                                         const std::vector<Checkerboard>& sections = {});
 
 /** @param header of the image, copied. @param size of the image [px]. */
 outdoor_omr::TargetArray toMessage(const std_msgs::Header& header, const cv::Size& size,

@@ -107,6 +107,31 @@ Marker ellipsoidOf(const outdoor_omr::PartArray& parts, const outdoor_omr::Part&
   result.color = color(1, 0, 1, 0.5F);
   return result;
 }
+
+Checkerboard toBoard(const outdoor_omr::Checkerboard& from)
+{
+  Checkerboard board;
+  board.rows = static_cast<int>(from.rows);
+  board.cols = static_cast<int>(from.cols);
+  const std::size_t count = from.rows > 0 && from.cols > 0 ? (from.rows - 1) * std::size_t{from.cols - 1} : 0;
+  if (count == 0 || from.inner_corners.size() != count || from.inner_corners_seen.size() != count)
+  {
+    throw std::invalid_argument("a checkerboard of " + std::to_string(from.rows) + " x " + std::to_string(from.cols) +
+                                " squares with " + std::to_string(from.inner_corners.size()) + " inner corners and " +
+                                std::to_string(from.inner_corners_seen.size()) + " flags of them");
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    board.inner_corners.emplace_back(from.inner_corners[i].x, from.inner_corners[i].y);
+    board.inner_corners_seen.push_back(from.inner_corners_seen[i] != 0);
+  }
+  for (std::size_t i = 0; i < board.corners.size(); ++i)
+  {
+    board.corners[i] = {from.corners[i].x, from.corners[i].y};
+  }
+  board.size_certain = from.size_certain != 0;
+  return board;
+}
 }  // namespace
 
 CameraInfo fromMessage(const sensor_msgs::CameraInfo& message)
@@ -124,30 +149,8 @@ CameraInfo fromMessage(const sensor_msgs::CameraInfo& message)
 std::vector<Checkerboard> fromMessage(const outdoor_omr::CheckerboardArray& message)
 {
   std::vector<Checkerboard> boards;
-  for (const outdoor_omr::Checkerboard& from : message.checkerboards)
-  {
-    Checkerboard board;
-    board.rows = static_cast<int>(from.rows);
-    board.cols = static_cast<int>(from.cols);
-    const std::size_t count = from.rows > 0 && from.cols > 0 ? (from.rows - 1) * std::size_t{from.cols - 1} : 0;
-    if (count == 0 || from.inner_corners.size() != count || from.inner_corners_seen.size() != count)
-    {
-      throw std::invalid_argument("a checkerboard of " + std::to_string(from.rows) + " x " + std::to_string(from.cols) +
-                                  " squares with " + std::to_string(from.inner_corners.size()) + " inner corners and " +
-                                  std::to_string(from.inner_corners_seen.size()) + " flags of them");
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      board.inner_corners.emplace_back(from.inner_corners[i].x, from.inner_corners[i].y);
-      board.inner_corners_seen.push_back(from.inner_corners_seen[i] != 0);
-    }
-    for (std::size_t i = 0; i < board.corners.size(); ++i)
-    {
-      board.corners[i] = {from.corners[i].x, from.corners[i].y};
-    }
-    board.size_certain = from.size_certain != 0;
-    boards.push_back(board);
-  }
+  std::transform(message.checkerboards.begin(), message.checkerboards.end(), std::back_inserter(boards), toBoard);
+  std::transform(message.sections.begin(), message.sections.end(), std::back_inserter(boards), toBoard);
   return boards;
 }
 

@@ -83,6 +83,11 @@ Json toJson(const std::string& image, const cv::Size& size, double milliseconds,
   {
     checkerboards.push_back(toJson(board));
   }
+  Json sections = Json::array();
+  for (const Checkerboard& section : markers.sections)
+  {
+    sections.push_back(toJson(section));
+  }
   Json targets = Json::array();
   for (const Target& target : markers.targets)
   {
@@ -93,10 +98,11 @@ Json toJson(const std::string& image, const cv::Size& size, double milliseconds,
   {
     candidates.push_back(toJson(candidate));
   }
-  return {{"image", image},        {"width", size.width},
-          {"height", size.height}, {"time_ms", rounded(milliseconds)},
-          {"steps_ms", steps},     {"checkerboards", checkerboards},
-          {"targets", targets},    {"candidates", candidates}};
+  return {{"image", image},          {"width", size.width},
+          {"height", size.height},   {"time_ms", rounded(milliseconds)},
+          {"steps_ms", steps},       {"checkerboards", checkerboards},
+          {"sections", sections},    {"targets", targets},
+          {"candidates", candidates}};
 }
 
 }  // namespace omr

@@ -91,8 +91,7 @@ omr::ExitCode locateAll(const Options& options)
       }
       const Clock::time_point start = Clock::now();
       const omr::Markers markers = detector.detect(image, settings);
-      const std::vector<omr::Sighting> sightings =
-          omr::locateParts(markers.checkerboards, markers.targets, parts, camera);
+      const std::vector<omr::Sighting> sightings = omr::locateParts(markers, parts, camera);
       const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
       if (options.json.empty())
       {

@@ -100,6 +100,15 @@ TEST(Messages, copiesEveryFieldOfACheckerboard)
   EXPECT_TRUE(array.checkerboards[1].size_certain);
 }
 
+TEST(Messages, sectionsAreNotAmongTheBoards)
+{
+  const auto array = omr::toMessage(header(), cv::Size(640, 480), std::vector<Checkerboard>{Checkerboard()},
+                                    std::vector<Checkerboard>{board()});
+  EXPECT_EQ(1U, array.checkerboards.size());
+  ASSERT_EQ(1U, array.sections.size());
+  EXPECT_EQ(4U, array.sections[0].cols);
+}
+
 TEST(Messages, copiesEveryFieldOfATarget)
 {
   Target target;

@@ -31,6 +31,24 @@ TEST(PartMessages, poseComesBackAsItWent)
   EXPECT_EQ(cv::norm(back.covariance - estimate.covariance), 0);
 }
 
+TEST(PartMessages, sectionsFollowTheBoards)
+{
+  outdoor_omr::CheckerboardArray message;
+  for (const int cols : {3, 4})
+  {
+    outdoor_omr::Checkerboard board;
+    board.rows = 3;
+    board.cols = cols;
+    board.inner_corners.resize(2 * (cols - 1));
+    board.inner_corners_seen.assign(2 * (cols - 1), 1U);
+    (cols == 3 ? message.sections : message.checkerboards).push_back(board);
+  }
+  const std::vector<omr::Checkerboard> boards = omr::fromMessage(message);
+  ASSERT_EQ(boards.size(), 2U);
+  EXPECT_EQ(boards[0].cols, 4);
+  EXPECT_EQ(boards[1].cols, 3);
+}
+
 TEST(PartMessages, copiesAreFollowedAndHaveFramesOfTheirOwn)
 {
   omr::PartTracker tracker({});
