@@ -14,22 +14,8 @@ constexpr float LEVEL_SQUARE_HEIGHT = 24;  // px; above it a level of half the s
 constexpr float RAW_SQUARE_HEIGHT = 5;     // px; below it the 3x3 filter costs recall
 constexpr float LOG_OFFSET = 12;           // grey levels
 
-const std::array<float, 257>& logarithms()
-{
-  static const std::array<float, 257> TABLE = [] {
-    std::array<float, 257> table;
-    for (std::size_t i = 0; i < table.size(); ++i)
-    {
-      table[i] = std::log(static_cast<float>(i) + LOG_OFFSET);
-    }
-    return table;
-  }();
-  return TABLE;
-}
-
 /** Normalised correlation of the ring with a template of one value a quadrant, in grey levels or logarithms. */
-template <typename Transform>
-float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern, const Transform& transform)
+float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern)
 {
   float sum = 0;
   float squares = 0;
@@ -41,7 +27,7 @@ float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern,
     float quadrant = 0;
     for (int i = 0; i < QUADRANT_SAMPLES; ++i)
     {
-      const float value = transform(ring[q * QUADRANT_SAMPLES + i]);
+      const float value = ring[q * QUADRANT_SAMPLES + i];
       quadrant += value;
       squares += value * value;
     }
@@ -56,6 +42,11 @@ float correlation(const Ring& ring, const std::array<float, QUADRANTS>& pattern,
 }
 
 using RingPlaces = SamplePlaces<RING_SAMPLES>;
+
+OMR_VECTORIZED void takeLogarithms(const Ring& ring, Ring& logarithms)
+{
+  greyLogarithms(greyLogarithmTable(), ring, logarithms);
+}
 
 OMR_VECTORIZED void sampleAll(const cv::Mat& grey, const RingPlaces& places, Ring& ring)
 {
@@ -73,11 +64,25 @@ PyramidView::PyramidView(const Frame& frame, float square_height)
   }
 }
 
+const std::array<float, 257>& greyLogarithmTable()
+{
+  static const std::array<float, 257> TABLE = [] {
+    std::array<float, 257> table;
+    for (std::size_t i = 0; i < table.size(); ++i)
+    {
+      table[i] = std::log(static_cast<float>(i) + LOG_OFFSET);
+    }
+    return table;
+  }();
+  return TABLE;
+}
+
 float greyLogarithm(float grey)
 {
   const auto index = static_cast<std::size_t>(grey);
   const float rest = grey - static_cast<float>(index);
-  return logarithms()[index] * (1 - rest) + logarithms()[index + 1] * rest;
+  const std::array<float, 257>& table = greyLogarithmTable();
+  return table[index] * (1 - rest) + table[index + 1] * rest;
 }
 
 Ring sampleRing(const PyramidView& view, const LocalFrame& frame, float inner_radius, float outer_radius)
@@ -130,8 +135,9 @@ float quadrantMedian(const Ring& ring, int quadrant)
 
 float ringCorrelation(const Ring& ring, const std::array<float, QUADRANTS>& pattern)
 {
-  return std::max(correlation(ring, pattern, [](float grey) { return grey; }),
-                  correlation(ring, pattern, greyLogarithm));
+  Ring logarithms;
+  takeLogarithms(ring, logarithms);
+  return std::max(correlation(ring, pattern), correlation(logarithms, pattern));
 }
 
 }  // namespace omr

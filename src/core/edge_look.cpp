@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "grey_samples.h"
+#include "vectorized.h"
+
 namespace omr
 {
 namespace
@@ -81,19 +84,37 @@ Agreement agreementOf(const Edges& edges, const cv::Point2f& corner, float ratio
   }
   return agreement;
 }
+
+using Profile = std::array<float, PROFILE>;
+
+/** Grey values and their logarithms in steps around a place. */
+OMR_VECTORIZED void sampleAcross(const PyramidView& view, const LocalFrame& local_frame, const cv::Point2f& middle,
+                                 const cv::Point2f& across, Profile& grey, Profile& logarithm)
+{
+  const LocalFrame frame = local_frame;
+  const cv::Point2f place = middle;
+  const cv::Point2f step = across;
+  const float scale = view.scale;
+  SamplePlaces<PROFILE> places;
+  for (int i = 0; i < PROFILE; ++i)
+  {
+    // LocalFrame::at()
+    const auto steps = static_cast<float>(i - REACH - HALF);
+    const float u = place.x + steps * step.x;
+    const float v = place.y + steps * step.y;
+    places.x[i] = (frame.node.x + u * frame.u.x + v * frame.v.x) * scale;
+    places.y[i] = (frame.node.y + u * frame.u.y + v * frame.v.y) * scale;
+  }
+  sampleGreys(*view.grey, places, grey);
+  greyLogarithms(greyLogarithmTable(), grey, logarithm);
+}
 }  // namespace
 
 Edge strongestEdge(const PyramidView& view, const LocalFrame& frame, const cv::Point2f& place, bool along_u, int sign)
 {
-  std::array<float, PROFILE> grey;
-  std::array<float, PROFILE> logarithm;
-  const cv::Point2f across = along_u ? cv::Point2f(0, STEP) : cv::Point2f(STEP, 0);
-  for (int i = 0; i < PROFILE; ++i)
-  {
-    const cv::Point2f at = place + static_cast<float>(i - REACH - HALF) * across;
-    grey[i] = view.sample(frame.at(at.x, at.y));
-    logarithm[i] = greyLogarithm(grey[i]);
-  }
+  Profile grey;
+  Profile logarithm;
+  sampleAcross(view, frame, place, along_u ? cv::Point2f(0, STEP) : cv::Point2f(STEP, 0), grey, logarithm);
   const auto s = static_cast<float>(sign);
   Edge edge;
   edge.ratio = -1e9F;

@@ -36,22 +36,50 @@ inline void sampleGreys(const cv::Mat& grey, const SamplePlaces<SIZE>& places, s
     share.y[i] = y - static_cast<float>(row);
     offset[i] = row * step + column;
   }
-  std::array<std::array<int, SIZE>, 4> pixels;
+  // Two bytes at once, of which on little-endian machines the lower one is the left.
+  std::array<int, SIZE> above;
+  std::array<int, SIZE> below;
   for (std::size_t i = 0; i < SIZE; ++i)
   {
-    const uchar* above = grey.data + offset[i];
-    const uchar* below = above + step;
-    pixels[0][i] = above[0];
-    pixels[1][i] = above[1];
-    pixels[2][i] = below[0];
-    pixels[3][i] = below[1];
+    std::uint16_t pair;
+    std::memcpy(&pair, grey.data + offset[i], sizeof(pair));
+    above[i] = pair;
+    std::memcpy(&pair, grey.data + offset[i] + step, sizeof(pair));
+    below[i] = pair;
   }
   for (std::size_t i = 0; i < SIZE; ++i)
   {
     const float a = share.x[i];
     const float b = share.y[i];
-    values[i] = (static_cast<float>(pixels[0][i]) * (1 - a) + static_cast<float>(pixels[1][i]) * a) * (1 - b) +
-                (static_cast<float>(pixels[2][i]) * (1 - a) + static_cast<float>(pixels[3][i]) * a) * b;
+    values[i] = (static_cast<float>(above[i] & 255) * (1 - a) + static_cast<float>(above[i] >> 8) * a) * (1 - b) +
+                (static_cast<float>(below[i] & 255) * (1 - a) + static_cast<float>(below[i] >> 8) * a) * b;
+  }
+}
+
+/** What greyLogarithm() takes its values from: those of whole grey levels. */
+const std::array<float, 257>& greyLogarithmTable();
+
+/** greyLogarithm() of all values; to be called from a function that is OMR_VECTORIZED. */
+template <std::size_t SIZE>
+inline void greyLogarithms(const std::array<float, 257>& table, const std::array<float, SIZE>& grey,
+                           std::array<float, SIZE>& logarithms)
+{
+  std::array<int, SIZE> level;
+  std::array<float, SIZE> lower;
+  std::array<float, SIZE> upper;
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    level[i] = static_cast<int>(grey[i]);
+  }
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    lower[i] = table[level[i]];
+    upper[i] = table[level[i] + 1];
+  }
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    const float rest = grey[i] - static_cast<float>(level[i]);
+    logarithms[i] = lower[i] * (1 - rest) + upper[i] * rest;
   }
 }
 

@@ -114,24 +114,45 @@ HalfRing halfRing(const cv::Mat& grey)
   return {2, step + 2, 2 * step + 1, 2 * step, 2 * step - 1, step - 2};
 }
 
-bool isPointSymmetric(const uchar* pixel, const HalfRing& ring, int min_range)
+/** Rings of pixels around as many places, their values side by side: each of the half ring, and opposite. */
+struct Rings
 {
-  int least = 255;
-  int most = 0;
-  int largest = 0;
-  int sum = 0;
-  for (const std::ptrdiff_t offset : ring)
+  static constexpr int SIZE = 32;
+
+  std::array<std::array<std::int16_t, SIZE>, std::tuple_size<HalfRing>::value> here, opposite;
+};
+
+/** Which of the rings are symmetric to their centre, and no noise. */
+OMR_VECTORIZED void judgeSymmetry(const Rings& rings, int min_range, std::array<int, Rings::SIZE>& is_symmetric)
+{
+  std::array<std::int16_t, Rings::SIZE> least = rings.here[0];
+  std::array<std::int16_t, Rings::SIZE> most = least;
+  std::array<std::int16_t, Rings::SIZE> largest{};
+  std::array<std::int16_t, Rings::SIZE> sum{};
+  for (std::size_t k = 0; k < rings.here.size(); ++k)
   {
-    const int a = pixel[offset];
-    const int b = pixel[-offset];
-    least = std::min({least, a, b});
-    most = std::max({most, a, b});
-    largest = std::max(largest, std::abs(a - b));
-    sum += std::abs(a - b);
+    for (int i = 0; i < Rings::SIZE; ++i)
+    {
+      const std::int16_t a = rings.here[k][i];
+      const std::int16_t b = rings.opposite[k][i];
+      const std::int16_t low = std::min(a, b);
+      const std::int16_t high = std::max(a, b);
+      const auto difference = static_cast<std::int16_t>(high - low);
+      least[i] = std::min(least[i], low);
+      most[i] = std::max(most[i], high);
+      largest[i] = std::max(largest[i], difference);
+      sum[i] = static_cast<std::int16_t>(sum[i] + difference);
+    }
   }
-  const auto range = static_cast<float>(most - least);
-  return range >= static_cast<float>(min_range) && static_cast<float>(largest) <= MAX_ASYMMETRY * range &&
-         static_cast<float>(sum) <= 2.2F * MAX_ASYMMETRY * range;
+  for (int i = 0; i < Rings::SIZE; ++i)
+  {
+    const auto range = static_cast<float>(most[i] - least[i]);
+    is_symmetric[i] = (range >= static_cast<float>(min_range)) &
+                              (static_cast<float>(largest[i]) <= MAX_ASYMMETRY * range) &
+                              (static_cast<float>(sum[i]) <= 2.2F * MAX_ASYMMETRY * range)
+                          ? 1
+                          : 0;
+  }
 }
 
 struct Point
@@ -140,11 +161,60 @@ struct Point
   cv::Point place;
 };
 
+/** Adds the candidates whose surroundings are symmetric, in their order; looks at many at once. */
+class Candidates
+{
+ public:
+  Candidates(const cv::Mat& grey, int min_range, std::vector<Point>& found)
+      : grey_(grey), ring_(halfRing(grey)), min_range_(min_range), found_(found)
+  {
+  }
+
+  void add(std::int16_t response, const cv::Point& place)
+  {
+    const uchar* pixel = grey_.ptr<uchar>(place.y) + place.x;
+    for (std::size_t k = 0; k < ring_.size(); ++k)
+    {
+      rings_.here[k][count_] = pixel[ring_[k]];
+      rings_.opposite[k][count_] = pixel[-ring_[k]];
+    }
+    points_[count_] = {response, place};
+    if (++count_ == Rings::SIZE)
+    {
+      judge();
+    }
+  }
+
+  /** Adds what waits. */
+  void judge()
+  {
+    std::array<int, Rings::SIZE> is_symmetric;
+    judgeSymmetry(rings_, min_range_, is_symmetric);
+    for (int i = 0; i < count_; ++i)
+    {
+      if (is_symmetric[i] != 0)
+      {
+        found_.push_back(points_[i]);
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  const cv::Mat& grey_;
+  HalfRing ring_;
+  int min_range_;
+  std::vector<Point>& found_;
+  Rings rings_{};
+  std::array<Point, Rings::SIZE> points_;
+  int count_ = 0;
+};
+
 /** The saddle points of the rows [from, to). */
 void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, std::vector<Point>& found)
 {
   const int width = grey.cols;
-  const HalfRing ring = halfRing(grey);
+  Candidates candidates(grey, least.range, found);
   std::vector<std::int16_t> buffer(8 * static_cast<std::size_t>(width), 0);
   const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * width]; };
   std::array<std::int16_t*, 3> slopes = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
@@ -167,14 +237,9 @@ void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, s
       continue;
     }
     markMaxima(responses[0], largest[0], largest[2], width, least.response, marks.data());
-    const auto* row = grey.ptr<uchar>(y - 1);
-    forEachMark(marks, [&](int x) {
-      if (isPointSymmetric(row + x, ring, least.range))
-      {
-        found.push_back({responses[0][x], {x, y - 1}});
-      }
-    });
+    forEachMark(marks, [&](int x) { candidates.add(responses[0][x], {x, y - 1}); });
   }
+  candidates.judge();
 }
 }  // namespace
 
