@@ -88,6 +88,25 @@ TEST(Corners, aHiddenCornerGetsItsForecastAndTheFlag)
   EXPECT_LT(cv::norm(error), 0.15);
 }
 
+TEST(Corners, ofTooFewForASurfaceEachIsWhereItsPictureHasIt)
+{
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);
+  Render render({400, 300});
+  render.addBoard(5, 7, board);
+  const Frame frame = omr::makeFrame(render.picture());
+  CornerLooker looker(frame, 1000);
+  Lattice lattice;
+  lattice.start(frameAt(board, 3, 2), looker.look(frameAt(board, 3, 2), CornerQuery()));
+  growLattice(lattice, looker, 2);
+  ASSERT_LT(lattice.count(), 6);
+  const int count = lattice.count();
+  const std::vector<bool> seen = refineCorners(frame, lattice);
+  ASSERT_EQ(lattice.box.area(), static_cast<int>(seen.size()));
+  EXPECT_EQ(count, std::count(seen.begin(), seen.end(), true));
+  const cv::Point2d truth = omr::test::project(board, 3, 2);
+  EXPECT_LT(cv::norm(cv::Point2d(lattice.at(Lattice::SEED, Lattice::SEED).position) - truth), 0.1);
+}
+
 TEST(Corners, whatCoversAPartOfOneBendsNone)
 {
   const cv::Matx33d board = omr::test::boardHomography(7, 9, {200, 150}, 12, 10, 20);

@@ -14,7 +14,8 @@ namespace omr
  * (homography and cubic polynomial) when that explains them to within the noise. Corners that something covers in part
  * count little in it.
  *
- * Nodes of the box that were not found, or whose corner the surface refutes, get the surface's position.
+ * Nodes of the box that were not found, or whose corner the surface refutes, get the surface's position; where
+ * there is none, or it explains too little, that of the corners around them.
  *
  * @return one flag a node of the box, row by row: whether the corner was seen.
  */
