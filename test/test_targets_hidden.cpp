@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "../src/core/ring_candidate.h"
 #include "../src/core/ring_openness.h"
 #include "target_views.h"
 
@@ -98,6 +99,14 @@ TEST(HiddenTargets, sidesOfSpreadDirectionsAndOfHalf)
   EXPECT_NEAR(0, omr::onesidedness(0x00FF00FF00FF00FF), 1e-9);
   EXPECT_NEAR(.125, omr::widestGap(0x00FF00FF00FF00FF), 1e-9);
   EXPECT_NEAR(2 / CV_PI, omr::onesidedness(0xFFFFFFFF), .01);
+}
+
+TEST(HiddenTargets, tooFewOrOneSidedDirectionsAreGivenUpEarly)
+{
+  EXPECT_TRUE(omr::maySuffice(~AngleBins{0}));
+  EXPECT_TRUE(omr::maySuffice(0x00FFF00FFF00FFF0));  // 36 of 64, gaps of 8
+  EXPECT_FALSE(omr::maySuffice(0x00000000FFFFFFFF)) << "half a turn";
+  EXPECT_FALSE(omr::maySuffice(0x1111111111111111)) << "a quarter of them";
 }
 
 int main(int argc, char** argv)

@@ -128,4 +128,9 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
          (fits && candidate.evidence > (many ? .74 : .8));
 }
 
+bool maySuffice(AngleBins open)
+{
+  return share(open) >= OPEN_VISIBLE && widestGap(open) <= OPEN_GAP;
+}
+
 }  // namespace omr

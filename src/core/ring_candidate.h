@@ -48,6 +48,9 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, 
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
 
+/** Whether isTarget() may be true of rings that are looked at in some directions only. */
+bool maySuffice(AngleBins open);
+
 }  // namespace omr
 
 #endif
