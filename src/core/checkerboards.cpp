@@ -100,23 +100,6 @@ Growth growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Se
   return Growth::grown;
 }
 
-/** Where a side's end was not seen, and the edges end farther out all around, they are right: below a fence a line of
- * corners may be hidden as a whole. Wrong boards on 676 derived pictures 9 -> 7. */
-void growByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence, 4>& sides)
-{
-  if (std::count(sides.begin(), sides.end(), SideEvidence::border) == 4)
-  {
-    return;
-  }
-  Lattice read = lattice;
-  std::array<SideEvidence, 4> read_sides = sides;
-  if (readByEdges(frame, read, read_sides) && isBoardOfEdges(read, read_sides) && read.box.area() > lattice.box.area())
-  {
-    lattice = read;
-    sides = read_sides;
-  }
-}
-
 /** Settles a grown lattice by its corners. @param sides receive what is seen of its sides. @param sections receive what
  * may be a part of a board. */
 bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std::array<SideEvidence, 4>& sides,
@@ -138,7 +121,6 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
     noteFailure(lattice, 2, map);
     return false;
   }
-  growByEdges(lattice, looker.frame(), sides);
   return true;
 }
 
