@@ -5,25 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "letter_costs.h"
+
 namespace omr
 {
 namespace
 {
-constexpr int LETTERS = 5;
-constexpr std::array<char, LETTERS> LETTER = {'W', 'P', 'R', 'G', 'B'};
-
-// Reflectance relative to the paper (red, green, blue): medians over prints and renders, spread .25 of the logarithm.
-const std::array<LinearColor, LETTERS> REFLECTANCE = {LinearColor(1, 1, 1), LinearColor(.069, .068, .07),
-                                                      LinearColor(.66, .062, .055), LinearColor(.053, .33, .095),
-                                                      LinearColor(.06, .09, .38)};
-
-constexpr double DARKEST = .03;         // ink; cameras that clip the blacks show less
-constexpr double FLOOR = .03;           // of the white: glare and noise hide darker differences
-constexpr double DEVIATION = .4;        // of the logarithm of the reflectance, its mean over the channels apart
-constexpr double WHITE_DEVIATION = .2;  // the same of white, which the light tints as it tints the white of the place
-constexpr double BRIGHTNESS_DEVIATION = .6;  // of that mean
-constexpr double OTHER_WAY_COST = 3;         // of another way of measuring than the first
-constexpr double LARGEST_COST = 16;
+constexpr double OTHER_WAY_COST = 3;     // of another way of measuring than the first
 constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal letters
 constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
 constexpr double EXCESS_DEVIATION = .3;  // of the logarithm: gloss and uneven light
@@ -31,7 +19,8 @@ constexpr double FREE_WHITE_COST = 3;    // of a white that is seen nowhere
 // From the level of the brightest ring up to 4 times as bright: blue and green alone show a third of the white.
 constexpr int FREE_WHITES = 5;
 constexpr double FREE_WHITE_RATIO = 1.4;
-constexpr double HAZE_COST = 4;  // of a haze as bright as the white
+constexpr double HAZE_COST = 4;       // of a haze as bright as the white
+constexpr double THICKEST_VEIL = .4;  // with the haze: behind a thicker one hues are too faint
 const std::array<double, 14> HAZES = {0, .03, .07, .12, .2, .3, .45, .6, .68, .74, .79, .83, .87, .9};
 
 constexpr double MIN_MARGIN = 1.5;          // between the best explanation and the best with another letter
@@ -41,50 +30,9 @@ constexpr double THICK_HAZE = .4;
 constexpr double UNEXPLAINED_IN_HAZE = 2.5;  // cost of the whole a ring, through a thick haze
 constexpr double UNEXPLAINED = 6;            // cost of a ring that no letter explains
 
-using Costs = std::array<double, LETTERS>;
-
 double squared(double value)
 {
   return value * value;
-}
-
-/** Logarithms of a reflectance, which tells little where it is low. */
-LinearColor logarithms(const LinearColor& reflectance)
-{
-  return {std::log(reflectance[0] + FLOOR), std::log(reflectance[1] + FLOOR), std::log(reflectance[2] + FLOOR)};
-}
-
-std::array<LinearColor, LETTERS> logarithmsOfLetters()
-{
-  std::array<LinearColor, LETTERS> result;
-  std::transform(REFLECTANCE.begin(), REFLECTANCE.end(), result.begin(), logarithms);
-  return result;
-}
-
-Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze)
-{
-  static const std::array<LinearColor, LETTERS> LOGARITHMS = logarithmsOfLetters();
-  LinearColor reflectance;
-  for (int c = 0; c < 3; ++c)
-  {
-    // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
-    reflectance[c] = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze));
-  }
-  const LinearColor seen = logarithms(reflectance);
-  Costs costs{};
-  for (int letter = 0; letter < LETTERS; ++letter)
-  {
-    const LinearColor error = seen - LOGARITHMS[letter];
-    // A shadow that covers one ring more than another changes its brightness alone.
-    const double brightness = (error[0] + error[1] + error[2]) / 3;
-    costs[letter] = 3 * squared(brightness / BRIGHTNESS_DEVIATION);
-    for (int c = 0; c < 3; ++c)
-    {
-      costs[letter] += squared((error[c] - brightness) / (LETTER[letter] == 'W' ? WHITE_DEVIATION : DEVIATION));
-    }
-    costs[letter] = std::min(costs[letter], LARGEST_COST);
-  }
-  return costs;
 }
 
 /** One way to see all rings. */
@@ -190,7 +138,7 @@ std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const s
 /** Tries all whites and hazes; the best explanation so far, and for each ring and letter the least cost, may improve.
  */
 void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& seen, const LinearColor& around,
-             Explanation& best, std::vector<Costs>& best_costs, std::vector<Costs>& alternatives)
+             double thickest_veil, Explanation& best, std::vector<Costs>& best_costs, std::vector<Costs>& alternatives)
 {
   if (rings.empty())
   {
@@ -210,7 +158,7 @@ void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& see
       costs.reserve(rings.size());
       for (std::size_t k = 0; k < rings.size(); ++k)
       {
-        costs.push_back(seen[k] ? letterCosts(rings[k], white.color, haze) : Costs{});
+        costs.push_back(seen[k] ? letterCosts(rings[k], white.color, haze, thickest_veil) : Costs{});
       }
       Explanation explanation = cheapest(costs, rings.size(), 0);
       if (explanation.cost + assumed > best.cost + MIN_MARGIN)
@@ -246,10 +194,11 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
 {
   std::vector<LinearColor> colors = rings;
   colors.push_back(around);
-  return readColorKey({colors}, std::vector<bool>(rings.size(), true));
+  return readColorKey({colors}, std::vector<bool>(rings.size(), true), true);
 }
 
-std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen)
+std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen,
+                         bool is_sharp)
 {
   const std::size_t count = seen.size();
   const auto seen_count = std::count(seen.begin(), seen.end(), true);
@@ -277,7 +226,7 @@ std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, 
     {
       other.fill(std::numeric_limits<double>::infinity());
     }
-    explain(rings, seen, around, explanation, costs, others);
+    explain(rings, seen, around, is_sharp ? THICKEST_VEIL : 0, explanation, costs, others);
     if (best.letters.empty() || explanation.cost + way_cost < best.cost)
     {
       best = explanation;

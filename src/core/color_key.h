@@ -32,8 +32,10 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
  *
  * @param measured each: the rings from the inside out, and last what is around them.
  * @param seen     of each ring: false where something hides it; it is '?' and tells nothing.
+ * @param is_sharp whether the rings are too wide for the blur to pale them, so that gloss does where they are pale.
  */
-std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen);
+std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen,
+                         bool is_sharp);
 
 }  // namespace omr
 

@@ -83,7 +83,8 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
   while (true)
   {
     std::vector<std::vector<LinearColor>> measured = {measureRingColors(profile, boundaries, radii)};
-    if (narrowestRing(radii) > SHARP_WIDTH)
+    const bool is_sharp = narrowestRing(radii) > SHARP_WIDTH;
+    if (is_sharp)
     {
       measured.push_back(measureColorsIn(Light::brightest, profile, radii));
       measured.push_back(measureColorsIn(Light::darkest, profile, radii));
@@ -93,7 +94,7 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
     {
       seen[k] = isSeen(boundaries, k);
     }
-    std::string key = readColorKey(measured, seen);
+    std::string key = readColorKey(measured, seen, is_sharp);
     std::size_t k = 0;
     for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
     {

@@ -1,0 +1,27 @@
+#ifndef OUTDOOR_OMR_CORE_LETTER_COSTS_H
+#define OUTDOOR_OMR_CORE_LETTER_COSTS_H
+
+#include <array>
+
+#include "color_key.h"
+
+namespace omr
+{
+constexpr int LETTERS = 5;
+constexpr std::array<char, LETTERS> LETTER = {'W', 'P', 'R', 'G', 'B'};  ///< of the key
+
+/** Of each letter for one ring. */
+using Costs = std::array<double, LETTERS>;
+
+/**
+ * Squared deviations of a ring's colour from each letter's.
+ *
+ * @param white         of its place.
+ * @param haze          that lies on all rings, relative to the white.
+ * @param thickest_veil of gloss on this ring alone, likewise, with the haze; 0: none.
+ */
+Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze, double thickest_veil);
+
+}  // namespace omr
+
+#endif
