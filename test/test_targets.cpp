@@ -57,6 +57,26 @@ TEST(Targets, ringsAreTheEllipsesOfTheCircles)
   }
 }
 
+TEST(Targets, narrowRingsAreReadEnlarged)
+{
+  // Rings of 2.5 px leave neither regions nor edges apart: only a twofold enlargement of the round spot shows five.
+  TargetScene scene;
+  scene.radii = {2.5, 5, 7.5, 10, 12.5};
+  scene.sheet_half_side = 15;
+  scene.blur = .5;
+  for (const std::string colors : {"RWPGB", "BWRWP", "PWPWR"})
+  {
+    scene.colors = colors;
+    scene.homography = tiltedView({240.3, 180.6}, .5, 1, 1, 2000);
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size()) << colors;
+    EXPECT_EQ(colors, targets[0].colors);
+    EXPECT_LT(cv::norm(targets[0].center - projectedCenter(scene)), .15);
+    ASSERT_EQ(5U, targets[0].rings.size());
+    EXPECT_NEAR(25, std::max(targets[0].rings[4].size.width, targets[0].rings[4].size.height), .7);
+  }
+}
+
 TEST(Targets, ringsOfUnequalWidth)
 {
   TargetScene scene;

@@ -1,6 +1,7 @@
 #include "ring_lookahead.h"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 #include "arc_search.h"
 #include "ring_places.h"
@@ -49,6 +50,17 @@ void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundS
     }
   });
   seeds.has_families = true;
+}
+
+void addRoundSpots(const cv::Mat& bgr, RoundSeeds& seeds)
+{
+  if (!seeds.has_spots)
+  {
+    cv::Mat grey;
+    cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+    seeds.spots = findRoundSpots(grey);
+    seeds.has_spots = true;
+  }
 }
 
 void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds)

@@ -9,6 +9,7 @@
 #include "outdoor_omr/region.h"
 #include "ring_candidate.h"
 #include "ring_seeds.h"
+#include "round_spots.h"
 
 namespace omr
 {
@@ -36,13 +37,15 @@ struct GrownSeed
   EdgelMap map;  ///< a fork, which knows the looks that it took
 };
 
-/** What the search begins with: families of arcs, and the round seeds of an image, some grown already. */
+/** What the search begins with: families of arcs, and the round seeds and spots of an image, some grown already. */
 struct RoundSeeds
 {
   std::vector<RingSeed> seeds;
   std::vector<std::optional<GrownSeed>> grown;  // one a seed
   std::vector<GrownSeed> families;              // the one with most arcs first
+  std::vector<RoundSpot> spots;                 // the roundest first
   bool has_families = false;
+  bool has_spots = false;
   bool has_seeds = false;
 };
 
@@ -51,6 +54,9 @@ void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 
 /** Finds and grows the families of arcs, from which most targets come, if that was not done before. */
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
+
+/** Finds the round spots, if that was not done before. */
+void addRoundSpots(const cv::Mat& bgr, RoundSeeds& seeds);
 
 /**
  * Grows seeds that share their centre with others, as long as there is one outside of what was found: those that

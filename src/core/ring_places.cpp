@@ -42,6 +42,19 @@ bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Poin
   });
 }
 
+bool isInAny(const std::vector<RingCandidate>& candidates, const cv::Point2d& point)
+{
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [&](const RingCandidate& candidate) { return contains(candidate, point); });
+}
+
+bool isInAny(const std::vector<RingCandidate>& candidates, const RingCandidate& other)
+{
+  return std::any_of(candidates.begin(), candidates.end(), [&](const RingCandidate& candidate) {
+    return contains(other, candidate.rings.family.center) || contains(candidate, other.rings.family.center);
+  });
+}
+
 std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates)
 {
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -49,10 +62,7 @@ std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates
   std::vector<RingCandidate> best;
   for (RingCandidate& candidate : candidates)
   {
-    const bool is_double = std::any_of(best.begin(), best.end(), [&](const RingCandidate& other) {
-      return contains(other, candidate.rings.family.center) || contains(candidate, other.rings.family.center);
-    });
-    if (!is_double)
+    if (!isInAny(best, candidate))
     {
       best.push_back(std::move(candidate));
     }

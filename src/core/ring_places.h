@@ -13,6 +13,12 @@ bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards
 /** Whether a candidate that no other seed will better contains the point. */
 bool isInUndisputed(const std::vector<RingCandidate>& candidates, const cv::Point2d& point);
 
+/** Whether one of the candidates contains the point. */
+bool isInAny(const std::vector<RingCandidate>& candidates, const cv::Point2d& point);
+
+/** Whether one of the candidates contains the other's centre, or the other its centre. */
+bool isInAny(const std::vector<RingCandidate>& candidates, const RingCandidate& other);
+
 /** Of candidates one of which contains the other's centre, the best. */
 std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates);
 

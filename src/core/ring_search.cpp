@@ -7,12 +7,14 @@
 
 #include "arc_seeds.h"
 #include "ring_places.h"
+#include "small_rings.h"
 
 namespace omr
 {
 namespace
 {
 constexpr std::size_t MAX_PIECES = 50;  // that are looked at
+constexpr std::size_t MAX_SPOTS = 10;   // that are grown: three of four small targets with a spot are among the first 6
 
 // A picture with targets takes .05 to .4 looks a pixel, clutter up to 3.
 constexpr double LOOKS_PER_PIXEL = .6;
@@ -95,6 +97,36 @@ class Search
       }
     }
     growWaiting();
+  }
+
+  /** Grows the roundest where nothing was found; that takes none of the looks. */
+  void trySpots(const std::vector<RoundSpot>& spots)
+  {
+    std::vector<RoundSpot> open;
+    for (const RoundSpot& spot : spots)
+    {
+      if (open.size() < MAX_SPOTS && !isOnBoard(spot.center, boards_) && !isInAny(candidates_, spot.center))
+      {
+        open.push_back(spot);
+      }
+    }
+    std::vector<RingCandidate> grown(open.size());
+    std::vector<char> is_target(open.size());
+    cv::parallel_for_(cv::Range(0, static_cast<int>(open.size())), [&](const cv::Range& range) {
+      for (int i = range.start; i < range.end; ++i)
+      {
+        is_target[i] = !isVain() && growSpot(map_, bgr_, open[i], min_rings_, grown[i]) ? 1 : 0;
+      }
+    });
+    const std::vector<RingCandidate> found = candidates_;
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+      const cv::Point2d& center = grown[i].rings.family.center;
+      if (is_target[i] != 0 && !isOnBoard(center, boards_) && !isInAny(found, grown[i]))
+      {
+        candidates_.push_back(std::move(grown[i]));
+      }
+    }
   }
 
   /** Those of the largest pieces, the most votes first. */
@@ -228,6 +260,7 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
                                               const std::atomic<bool>* is_vain)
 {
   growFamilies(map, bgr, min_rings, seeds);
+  addRoundSpots(bgr, seeds);
   addRoundSeeds(regions, seeds);
   Search search(map, bgr, boards, min_rings, is_vain);
   search.tryFamilies(seeds.families);
@@ -240,6 +273,7 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
   search.tryRound(seeds, false);
   search.allow(1);
   search.tryArcs(arcs, false);
+  search.trySpots(seeds.spots);
   return search.takeBest();
 }
 

@@ -37,7 +37,8 @@ constexpr double EVIDENT_SHARE = .5;
 
 /**
  * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
- * half cannot be read must fit well.
+ * half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be read: most spots of
+ * which less is have another number of rings.
  */
 bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
 {
@@ -47,7 +48,7 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   const double clearness = candidate.evidence * candidate.visible;
   const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
                       RELATIVE_RMS * candidate.rings.radii.back();
-  if (counted < min_rings || (2 * unknown >= count && candidate.rings.rms > most))
+  if (counted < min_rings || (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
   {
     return false;
   }
@@ -56,8 +57,8 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   if (counted == 3 && diameter < MEDIUM_DIAMETER)
   {
     const bool is_small = diameter < SMALL_DIAMETER;
-    return unknown <= (is_small && target.colors[0] == '?' ? 0 : 1) &&
-           (clearness > VERY_CLEAR || (unknown == 0 && !is_small));
+    const bool is_all_needed = candidate.is_spot || (is_small && target.colors[0] == '?');
+    return unknown <= (is_all_needed ? 0 : 1) && (clearness > VERY_CLEAR || (unknown == 0 && !is_small));
   }
   return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }
@@ -112,11 +113,18 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
   }
 }
 
+void scaleBy(double factor, std::vector<double>& values)
+{
+  std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
+}
+
 /** @return false if the colours are no target's. */
 bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 {
   std::vector<double>& radii = candidate.rings.radii;
+  scaleBy(candidate.profile_scale, radii);
   target.colors = readColors(*candidate.profile, candidate.boundaries, radii);
+  scaleBy(1. / candidate.profile_scale, radii);
   target.center = cv::Point2f(candidate.rings.family.center);
   for (const double radius : radii)
   {
@@ -191,6 +199,7 @@ void TargetSearch::lookAtImage()
   if (state_->prepare())
   {
     growFamilies(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
+    addRoundSpots(state_->bgr, state_->seeds);
   }
 }
 

@@ -1,0 +1,96 @@
+#include "round_spots.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "render_target.h"
+
+namespace
+{
+/** A target of five rings, seen obliquely. @param ring width [px] */
+TargetScene smallTarget(double ring, double tilt)
+{
+  TargetScene scene;
+  scene.radii = {ring, 2 * ring, 3 * ring, 4 * ring, 5 * ring};
+  scene.sheet_half_side = 6 * ring;
+  scene.homography = tiltedView({203.4, 151.7}, tilt, .7, 1, 3000);
+  return scene;
+}
+
+std::vector<omr::RoundSpot> spotsIn(const cv::Mat& bgr)
+{
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  return omr::findRoundSpots(grey);
+}
+}  // namespace
+
+TEST(RoundSpots, narrowRingsMeetInTheirCentre)
+{
+  for (const double ring : {2., 2.5, 3.5})
+  {
+    for (const double tilt : {0., .6, .9})
+    {
+      const TargetScene scene = smallTarget(ring, tilt);
+      const std::vector<omr::RoundSpot> spots = spotsIn(renderTarget(scene));
+      ASSERT_FALSE(spots.empty()) << ring << " " << tilt;
+      EXPECT_LT(cv::norm(spots[0].center - projectedCenter(scene)), .5) << ring << " " << tilt;
+      EXPECT_LT(spots[0].deviation, .2);
+    }
+  }
+}
+
+TEST(RoundSpots, theRoundestComesFirst)
+{
+  cv::Mat image = renderTarget(smallTarget(2.5, 0));
+  cv::ellipse(image, cv::RotatedRect({80, 80}, {22, 14}, 30), cv::Scalar::all(250), cv::FILLED, cv::LINE_AA);
+  const std::vector<omr::RoundSpot> spots = spotsIn(image);
+  ASSERT_EQ(2U, spots.size());
+  EXPECT_LT(cv::norm(spots[0].center - cv::Point2d(203.4, 151.7)), .5);
+  EXPECT_LT(cv::norm(spots[1].center - cv::Point2d(80, 80)), .5);
+  EXPECT_LT(1.5 * spots[0].deviation, spots[1].deviation);
+}
+
+TEST(RoundSpots, ringsComeBeforeDisks)
+{
+  cv::Mat image = renderTarget(smallTarget(2.5, .9));
+  cv::circle(image, {80, 80}, 7, cv::Scalar::all(250), cv::FILLED, cv::LINE_AA);
+  const std::vector<omr::RoundSpot> spots = spotsIn(image);
+  ASSERT_EQ(2U, spots.size());
+  EXPECT_LT(cv::norm(spots[0].center - cv::Point2d(203.4, 151.7)), .5);
+  EXPECT_LT(2 * spots[1].deviation, spots[0].deviation) << "the disk is rounder";
+}
+
+TEST(RoundSpots, textureCornersAndBarsAreNone)
+{
+  cv::Mat texture(240, 320, CV_8UC3);
+  cv::randn(texture, cv::Scalar::all(120), cv::Scalar::all(40));
+  EXPECT_TRUE(spotsIn(texture).empty());
+
+  cv::Mat corner(240, 320, CV_8UC3, cv::Scalar::all(60));  // of two squares that touch
+  corner(cv::Rect(0, 0, 160, 120)) = cv::Scalar::all(220);
+  corner(cv::Rect(160, 120, 160, 120)) = cv::Scalar::all(220);
+  EXPECT_TRUE(spotsIn(corner).empty());
+
+  cv::Mat bars(240, 320, CV_8UC3, cv::Scalar::all(60));
+  for (int x = 0; x < 320; x += 8)
+  {
+    cv::line(bars, {x, 0}, {x, 239}, cv::Scalar::all(200), 3);
+  }
+  EXPECT_TRUE(spotsIn(bars).empty());
+}
+
+TEST(RoundSpots, noneAtTheImagesEdgeNorInAnImageTooSmall)
+{
+  cv::Mat image(60, 80, CV_8UC3, cv::Scalar::all(60));
+  cv::circle(image, {4, 30}, 6, cv::Scalar::all(220), cv::FILLED, cv::LINE_AA);
+  EXPECT_TRUE(spotsIn(image).empty());
+  EXPECT_TRUE(spotsIn(image(cv::Rect(0, 0, 7, 5))).empty());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
