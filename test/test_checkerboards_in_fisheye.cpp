@@ -5,11 +5,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/checkerboards.h"
+#include "outdoor_omr/corners.h"
 #include "outdoor_omr/fill_pipeline.h"
+#include "outdoor_omr/lattice_extent.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"
 
 using omr::Checkerboard;
+using omr::Lattice;
 using omr::test::Render;
 
 namespace
@@ -78,6 +81,31 @@ double distanceToNearest(const cv::Point2f& corner, int rows, int cols, const cv
   }
   return least;
 }
+
+/** Of all inner corners of a board of 7 x 10 squares, where they are. */
+Lattice latticeOf(const cv::Matx33d& pinhole, const Fisheye& fisheye)
+{
+  const auto at = [&](int row, int col) {
+    return cv::Point2f(fisheye.fromPinhole(omr::test::project(pinhole, col + 1, row + 1)));
+  };
+  omr::CornerLook corner;
+  corner.found = true;
+  corner.sign = 1;
+  corner.position = at(0, 0);
+  Lattice lattice;
+  lattice.start({at(0, 0), at(0, 1) - at(0, 0), at(1, 0) - at(0, 0)}, corner);
+  for (int i = 0; i < 6; ++i)
+  {
+    for (int j = 0; j < 9; ++j)
+    {
+      corner.position = at(i, j);
+      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
+    }
+  }
+  return lattice;
+}
+
+const cv::Matx33d BOARD = omr::test::boardHomography(7, 10, {590, 440}, 85, 15);
 }  // namespace
 
 TEST(CheckerboardsInFisheye, boardsUpToItsRimAreFoundWithAllCorners)
@@ -109,6 +137,35 @@ TEST(CheckerboardsInFisheye, boardsUpToItsRimAreFoundWithAllCorners)
       EXPECT_LT(distanceToNearest(boards[0].inner_corners[i], one.rows, one.cols, pinhole, fisheye), 0.5) << one.angle;
     }
   }
+}
+
+TEST(CheckerboardsInFisheye, theSurfaceDropsWhatIsWrongAndNotWhatBends)
+{
+  const Fisheye fisheye({1200, 900}, 68);
+  const cv::Matx33d tilted = omr::test::boardHomography(7, 10, {500, 380}, 85, 15, 40);
+  Lattice whole = latticeOf(tilted, fisheye);  // two of its corners are none of a cubic's
+  omr::dropOutliers(whole);
+  EXPECT_EQ(54, whole.count());
+  Lattice lattice = latticeOf(tilted, fisheye);
+  lattice.at(Lattice::SEED + 2, Lattice::SEED + 4).position += cv::Point2f(25, -20);
+  omr::dropOutliers(lattice);
+  EXPECT_EQ(53, lattice.count());
+  EXPECT_FALSE(lattice.found(Lattice::SEED + 2, Lattice::SEED + 4));
+}
+
+TEST(CheckerboardsInFisheye, aCornerWithoutFourSquaresIsNotSeen)
+{
+  const Fisheye fisheye({1200, 900}, 72);
+  Render render({1200, 900});
+  render.addBoard(7, 10, BOARD);
+  const omr::Frame frame = omr::makeFrame(fisheye.bend(render.picture()));
+  Lattice lattice = latticeOf(BOARD, fisheye);
+  lattice.at(Lattice::SEED + 2, Lattice::SEED + 4).position =
+      fisheye.fromPinhole(omr::test::project(BOARD, 5.4, 3));  // on the edge beside it
+  const std::vector<bool> seen = omr::refineCorners(frame, lattice);
+  ASSERT_EQ(54u, seen.size());
+  EXPECT_EQ(53, std::count(seen.begin(), seen.end(), true));
+  EXPECT_FALSE(seen[2 * 9 + 4]);
 }
 
 int main(int argc, char** argv)
