@@ -124,6 +124,19 @@ TEST_F(Locate, smallTargetWithRingsRunTogetherDoesNotCount)
   expectCertain(locate(view, {plate()}), "plate", pose_);
 }
 
+TEST_F(Locate, targetWhoseOutermostRingIsHiddenDoesNotCount)
+{
+  // Two targets that speak against it would make the board a foreign one.
+  PartView view(camera_);
+  view.add(flatBoard(), pose_);
+  view.add(LEFT, pose_, "RWPG");
+  const std::vector<Sighting> sightings = locate(view, {plate()});
+  ASSERT_EQ(sightings.size(), 1U);
+  EXPECT_EQ(sightings[0].candidates.size(), 2U);
+  view.add(RIGHT, pose_);
+  expectCertain(locate(view, {plate()}), "plate", pose_);
+}
+
 TEST_F(Locate, targetWithARingTooManyDoesNotCount)
 {
   for (const std::string colors : {"?RWPGB", "RWPGBP"})

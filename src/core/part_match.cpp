@@ -50,7 +50,8 @@ double pixels(double length, const cv::Affine3d& camera_part, const cv::Point3d&
 enum class Colors
 {
   AGREE,    ///< unknown letters agree with all
-  UNCLEAR,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG half hidden
+  UNCLEAR,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG or GRGP half
+            ///< hidden
   CONTRADICT
 };
 
@@ -71,6 +72,11 @@ Colors compare(std::string_view seen, std::string_view expected)
     const bool is_inner = agree(seen.substr(0, expected.size()), expected);
     const bool is_outer = agree(seen.substr(seen.size() - expected.size()), expected);
     return is_inner || is_outer ? Colors::UNCLEAR : Colors::CONTRADICT;
+  }
+  // An outermost ring that is hidden.
+  if (seen.size() > 2 && agree(seen, expected.substr(0, seen.size())))
+  {
+    return Colors::UNCLEAR;
   }
   // Of rings that run together the innermost letter is a mixture.
   const bool outer_agree = seen.size() > 2 && seen.size() < expected.size() &&

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
 #define OUTDOOR_OMR_ROS_POSITION_DIAGNOSTICS_H
 
+#include <outdoor_omr/PartArray.h>
 #include <ros/node_handle.h>
 
 #include <chrono>
@@ -26,8 +27,8 @@ class PositionDiagnostics
   void markersCame();
   void cameraInfoCame();
 
-  /** An image was located. @param parts certain ones. @param ambiguous sightings. */
-  void located(int parts, int ambiguous);
+  /** An image was located. @param parts what was found, the ambiguous as well. */
+  void located(const outdoor_omr::PartArray& parts);
 
   /** Nothing could be said of an image. */
   void refused(const std::string& reason);
@@ -48,6 +49,10 @@ class PositionDiagnostics
   std::uint64_t refused_ = 0;
   int parts_ = 0;
   int ambiguous_ = 0;
+  std::string ambiguous_names_;
+
+  const std::string markers_topics_;
+  const std::string camera_info_topic_;
 
   StatusReport report_;  // the last member: it reports what stands above
 };

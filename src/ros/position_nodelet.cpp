@@ -84,7 +84,9 @@ class PositionNodelet : public CheckedNodelet
     {
       throw std::invalid_argument("camera_info is of " + std::to_string(camera.size().width) + " x " +
                                   std::to_string(camera.size().height) + " px, the image has " +
-                                  std::to_string(size.width) + " x " + std::to_string(size.height));
+                                  std::to_string(size.width) + " x " + std::to_string(size.height) +
+                                  ": calibrate the camera at the size of its images, or set it to the calibrated one "
+                                  "(binning and cropping change the size)");
     }
     const std::vector<Sighting> sightings =
         locateParts(fromMessage(checkerboards), fromMessage(targets), parts_, camera);
@@ -102,7 +104,7 @@ class PositionNodelet : public CheckedNodelet
         broadcaster_.sendTransform(toTransform(message.header, part, parts_));
       }
     }
-    diagnostics_->located(static_cast<int>(message.parts.size()), static_cast<int>(message.ambiguous.size()));
+    diagnostics_->located(message);
   }
 
   std::vector<Part> parts_;
