@@ -5,7 +5,8 @@ Runs omr_position over a set of pictures of one plate, its true pose and camera 
 plate's board with both targets. Tables, one row for a range of distances: position error along the ray and across it,
 rotation error, how often the true pose lies in the 95 % ellipsoid. Variants:
   exact        the pictures and the calibration as they are
-  occluded     30 % of the markers' area painted over, a place of its own in each picture
+  occluded     30 % of the markers' area painted over, a place of its own in each picture; with what the points that are
+               left allow at best (Cramer-Rao)
   noisy        with noise of 12 grey levels: does the covariance follow?
   focal        the calibration's focal length is 0.1 % too long
   principal    the calibration's principal point is 1 px too far right
@@ -23,7 +24,7 @@ import cv2
 import numpy as np
 
 import evaluate_curved
-from pose_truth import error_of, matrix_of, pose_of, read_truth, write_camera
+from pose_truth import bound_along, error_of, matrix_of, pose_of, read_truth, write_camera
 
 RANGES = ((0, 1.25), (1.25, 2), (2, 4), (4, 5.2), (5.2, 100))  # [m]
 # 95th percentile of a part's error [mm], along and across the ray, and of its rotation [degrees] that are aimed at.
@@ -32,6 +33,8 @@ CHI_SQUARE_6 = 12.592  # of six degrees of freedom; 95 % stay below
 FLIP = 5  # [degrees]
 OCCLUDED_SHARE = .3
 NOISE = 12  # [grey levels]
+# What the detector leaves of a corner before it draws any to the others, and of a centre, on pictures as they are [px].
+CORNER_SIGMA, CENTER_SIGMA = .0145, .05
 
 
 def write_parts(path, picture):
@@ -47,9 +50,9 @@ def write_parts(path, picture):
                        % (target['code'], target['ring_m'], *center))
 
 
-def occlude(image, picture, random):
-    """Paints a rough, brownish polygon over 30 % of the area of the part's markers."""
-    markers = np.zeros(image.shape[:2], np.uint8)
+def cover_of(picture, random):
+    """The pixels of a rough polygon over 30 % of the area of the part's markers."""
+    markers = np.zeros((picture['height'], picture['width']), np.uint8)
     for marker in picture['checkerboards'] + picture['targets']:
         cv2.fillPoly(markers, [np.rint(marker['outline']).astype(int)], 1)
     ys, xs = np.nonzero(markers)
@@ -62,10 +65,46 @@ def occlude(image, picture, random):
     while cover[ys, xs].mean() < OCCLUDED_SHARE:
         radius *= 1.03
         cover = cv2.fillPoly(np.zeros_like(markers), [np.rint(middle + radius * ray).astype(int)], 1)
+    return cover
+
+
+def occlude(image, picture, random):
+    """Paints what hides a part of the markers."""
+    cover = cover_of(picture, random)
     color = np.array([60, 90, 120]) * random.uniform(.6, 1.4)
     paint = cv2.GaussianBlur(random.normal(0, 60, image.shape).astype(np.float32), (0, 0), 2) + color
     alpha = cv2.GaussianBlur(cover.astype(np.float32), (0, 0), .8)[..., None]
     return np.clip(image * (1 - alpha) + paint * alpha, 0, 255).astype(np.uint8)
+
+
+def bounds(pictures):
+    """What the points that occlude() leaves bound the error along the ray to."""
+    lines = ['| distance [m] | pictures | bound along [mm], 95 %, of all points | of those left |', '|---|---|---|---|']
+    first = pictures[0]
+    rotation, translation = pose_of(first['checkerboards'][0])
+    centers = [rotation.T @ (np.array(target['pose']['t']) - translation) for target in first['targets']]
+    board = first['checkerboards'][0]
+    x, y = np.meshgrid(np.arange(board['cols'] - 1), np.arange(board['rows'] - 1))
+    corners = np.column_stack([x.ravel() - (board['cols'] - 2) / 2, y.ravel() - (board['rows'] - 2) / 2, 0 * x.ravel()])
+    points = np.vstack([corners * board['square_m'], centers])
+    sigmas = np.array([CORNER_SIGMA] * len(corners) + [CENTER_SIGMA] * len(centers))
+    deviations = []
+    for number, picture in enumerate(pictures):
+        cover = cover_of(picture, np.random.default_rng(number))
+        pixels = picture['checkerboards'][0]['corners'] + [target['center'] for target in picture['targets']]
+        column, row = np.rint(pixels).astype(int).T
+        left = cover[row, column] == 0
+        deviations.append((pose_of(picture['checkerboards'][0])[1][2], bound_along(picture, points, sigmas),
+                           bound_along(picture, points[left], sigmas[left])))
+    deviations = np.array(deviations)
+    normal = np.abs(np.random.default_rng(0).normal(size=(4000, 1, 1)))
+    for low, high in RANGES:
+        some = deviations[(deviations[:, 0] >= low) & (deviations[:, 0] < high)]
+        if len(some):
+            spread = (normal * some[:, 1:]).reshape(-1, 2)
+            lines.append('| %.1f to %.1f | %d | %.3f | %.3f |' % (some[:, 0].min(), some[:, 0].max(), len(some),
+                                                                  *np.percentile(spread, 95, axis=0)))
+    return '\n'.join(lines) + '\n\n'
 
 
 def add_noise(image, _, random):
@@ -196,6 +235,7 @@ def main():
             errors, ambiguous = locate(folder, pictures, path(name + '.yaml'), path('parts.yaml'),
                                        path(name + '.jsonl'))
             text = table(name, errors, len(pictures), ambiguous) + (goals(errors) if name == 'exact' else '')
+            text += bounds(pictures) if name == 'occluded' else ''
             print(text, flush=True)
             report.write(text)
         if arguments.references:
