@@ -24,7 +24,7 @@ import cv2
 import numpy as np
 
 import evaluate_curved
-from pose_truth import bound_along, error_of, matrix_of, pose_of, read_truth, write_camera
+from pose_truth import bound_along, error_of, matrix_of, pose_of, project, read_truth, write_camera
 
 RANGES = ((0, 1.25), (1.25, 2), (2, 4), (4, 5.2), (5.2, 100))  # [m]
 # 95th percentile of a part's error [mm], along and across the ray, and of its rotation [degrees] that are aimed at.
@@ -91,8 +91,7 @@ def bounds(pictures):
     deviations = []
     for number, picture in enumerate(pictures):
         cover = cover_of(picture, np.random.default_rng(number))
-        pixels = picture['checkerboards'][0]['corners'] + [target['center'] for target in picture['targets']]
-        column, row = np.rint(pixels).astype(int).T
+        column, row = np.rint(project(picture, points)).astype(int).T
         left = cover[row, column] == 0
         deviations.append((pose_of(picture['checkerboards'][0])[1][2], bound_along(picture, points, sigmas),
                            bound_along(picture, points[left], sigmas[left])))

@@ -37,18 +37,20 @@ def matrix_of(quaternion):
     return cv2.Rodrigues(vector * (angle / length if length else 0))[0]
 
 
+def project(picture, points, step=np.zeros(6)):
+    """Pixels of a part's points [m], the part moved [m] and turned [radians] by a step."""
+    rotation, translation = pose_of(picture['checkerboards'][0])
+    turn = cv2.Rodrigues(cv2.Rodrigues(step[3:])[0] @ rotation)[0]
+    return cv2.projectPoints(points, turn, translation + step[:3], np.array(picture['camera_matrix']),
+                             np.array(picture['distortion'], float))[0].reshape(-1, 2)
+
+
 def bound_along(picture, points, sigmas):
     """Standard deviation [mm] along the ray that an estimate has at least (Cramer-Rao) if the part's points [m] are
     seen with independent errors of these sigmas [px]."""
-    rotation, translation = pose_of(picture['checkerboards'][0])
-
-    def project(step):
-        turn = cv2.Rodrigues(cv2.Rodrigues(step[3:])[0] @ rotation)[0]
-        return cv2.projectPoints(points, turn, translation + step[:3], np.array(picture['camera_matrix']),
-                                 np.array(picture['distortion']))[0].reshape(-1, 2)
-
-    steps = 1e-5 * np.eye(6)
-    jacobian = np.stack([((project(step) - project(-step)) / 2e-5 / sigmas[:, None]).ravel() for step in steps], 1)
+    jacobian = np.stack([((project(picture, points, step) - project(picture, points, -step)) / 2e-5 /
+                          sigmas[:, None]).ravel() for step in 1e-5 * np.eye(6)], 1)
+    translation = pose_of(picture['checkerboards'][0])[1]
     ray = translation / np.linalg.norm(translation)
     covariance = np.linalg.inv(jacobian.T @ jacobian)[:3, :3]
     return np.sqrt(ray @ covariance @ ray) * 1e3
