@@ -143,14 +143,15 @@ bool changeAt(const Lattice& lattice, int row, int col, int down, int right, cv:
 /**
  * Whether the steps between corners change from square to square so much that the change itself does, as in pictures of
  * fisheyes. Neighbouring lines must agree: single corners are also moved by the edges of shadows. Boards in drawn
- * pictures of fisheyes, of 223: 202 -> 216.
+ * pictures of fisheyes, of 223: 202 -> 215.
  */
 bool bendsStrongly(const Lattice& lattice)
 {
   constexpr int MIN_CORNERS = 12;
   constexpr float MIN_CHANGE = 0.12F;
-  constexpr float MAX_DIFFERENCE = 0.5F;  // of two lines, of the change
-  constexpr float MIN_SHARE = 0.15F;      // of the places
+  constexpr float MAX_DIFFERENCE = 0.5F;    // of two lines, of the change
+  constexpr float MIN_SHARE = 0.15F;        // of the places
+  constexpr float MIN_CORRELATION = 0.97F;  // clutter has less; its lattices would be grown twice
   int count = 0;
   int bent = 0;
   const auto consider = [&](int row, int col, int down, int right) {
@@ -164,15 +165,18 @@ bool bendsStrongly(const Lattice& lattice)
       bent += least > MIN_CHANGE && length(here - beside) < MAX_DIFFERENCE * least ? 1 : 0;
     }
   };
+  float correlation = 0;
   for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
   {
     for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
     {
+      correlation += lattice.found(i, j) ? lattice.at(i, j).correlation : 0;
       consider(i, j, 0, 1);
       consider(i, j, 1, 0);
     }
   }
-  return lattice.count() >= MIN_CORNERS && static_cast<float>(bent) > MIN_SHARE * static_cast<float>(count);
+  return lattice.count() >= MIN_CORNERS && correlation > MIN_CORRELATION * static_cast<float>(lattice.count()) &&
+         static_cast<float>(bent) > MIN_SHARE * static_cast<float>(count);
 }
 
 /** So that nodes are looked at again, with better predictions. */
