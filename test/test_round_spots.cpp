@@ -89,6 +89,28 @@ TEST(RoundSpots, noneAtTheImagesEdgeNorInAnImageTooSmall)
   EXPECT_TRUE(spotsIn(image(cv::Rect(0, 0, 7, 5))).empty());
 }
 
+TEST(RoundSpots, whatLiesBesideAPartOfAnImageDoesNotCount)
+{
+  cv::Mat image(240, 320, CV_8UC1, cv::Scalar::all(60));
+  for (int x = 0; x < 320; x += 8)
+  {
+    for (int y = 4; y < 240; y += 24)  // some at the edges of the part
+    {
+      cv::circle(image, {3 * x, y}, 3, cv::Scalar::all(220), 2, cv::LINE_AA);
+    }
+  }
+  const cv::Mat part = image(cv::Rect(37, 21, 168, 152));  // whole cells
+  const std::vector<omr::RoundSpot> spots = omr::findRoundSpots(part);
+  const std::vector<omr::RoundSpot> expected = omr::findRoundSpots(part.clone());
+  ASSERT_LT(4U, expected.size());
+  ASSERT_EQ(expected.size(), spots.size());
+  for (std::size_t i = 0; i < spots.size(); ++i)
+  {
+    EXPECT_EQ(expected[i].center, spots[i].center);
+    EXPECT_EQ(expected[i].deviation, spots[i].deviation);
+  }
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

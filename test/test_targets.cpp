@@ -200,6 +200,7 @@ TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
     search.lookAtImage();
     if (with_regions)
     {
+      search.lookAtGrey(omr::makeFrame(image).raw_grey);
       search.lookAtRegions(regions);
     }
     const std::vector<Target> ahead = search.finish(regions, {});
@@ -250,6 +251,7 @@ TEST(Targets, lookingAheadAtWhatIsNoColourImageDoesNothing)
   {
     omr::TargetSearch search(image, Settings());
     search.lookAtImage();
+    search.lookAtGrey({});
     search.lookAtRegions({});
     search.lookAtRest({});
     EXPECT_TRUE(search.finish({}, {}).empty());

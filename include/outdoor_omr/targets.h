@@ -36,6 +36,13 @@ class TargetSearch
   /** Finds most targets; the image suffices for that. finish() gives the same with and without it. */
   void lookAtImage();
 
+  /**
+   * Looks for small round places; likewise, and may run beside lookAtImage().
+   *
+   * @param grey of the image, CV_8UC1, as Frame::raw_grey.
+   */
+  void lookAtGrey(const cv::Mat& grey);
+
   /** Grows the regions that promise most; likewise. */
   void lookAtRegions(const RegionMap& regions);
 

@@ -55,7 +55,14 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   {
     image_look = std::async([&] { targets.lookAtImage(); });
   }
-  std::future<Frame> pyramid = std::async([&] { return makeFrame(bgr); });
+  std::future<Frame> pyramid = std::async([&] {
+    Frame frame = makeFrame(bgr);
+    if (settings.detect_targets)
+    {
+      targets.lookAtGrey(frame.raw_grey);
+    }
+    return frame;
+  });
   pipeline_.run(bgr, settings, outputs, regions, &times);
   StopWatch watch(times);
   const Frame frame = pyramid.get();

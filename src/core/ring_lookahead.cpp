@@ -52,12 +52,15 @@ void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundS
   seeds.has_families = true;
 }
 
-void addRoundSpots(const cv::Mat& bgr, RoundSeeds& seeds)
+void addRoundSpots(const cv::Mat& image, RoundSeeds& seeds)
 {
   if (!seeds.has_spots)
   {
-    cv::Mat grey;
-    cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+    cv::Mat grey = image;
+    if (image.channels() == 3)
+    {
+      cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    }
     seeds.spots = findRoundSpots(grey);
     seeds.has_spots = true;
   }

@@ -55,8 +55,12 @@ void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 /** Finds and grows the families of arcs, from which most targets come, if that was not done before. */
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
 
-/** Finds the round spots, if that was not done before. */
-void addRoundSpots(const cv::Mat& bgr, RoundSeeds& seeds);
+/**
+ * Finds the round spots, if that was not done before; may run beside growFamilies().
+ *
+ * @param image CV_8UC1 or CV_8UC3.
+ */
+void addRoundSpots(const cv::Mat& image, RoundSeeds& seeds);
 
 /**
  * Grows seeds that share their centre with others, as long as there is one outside of what was found: those that

@@ -5,20 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "pixel_gradients.h"
+#include "round_windows.h"
 #include "vectorized.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int CELL = 8;           // [px]
-constexpr int CELL_ROW_STEP = 4;  // of the rows whose gradients stand for a cell
-// The weakest of 188 small targets has 15 within 11 px of its centre.
-constexpr double MIN_GRADIENT = 12;      // of a window, root mean square [grey levels over two pixels]
-constexpr float MIN_ISOTROPY = .4F;      // 4 det / trace^2 of the tensor: circles tilted by 60 degrees have .64
 constexpr double MIN_DETERMINANT = .02;  // over trace^2: else the lines along the gradients meet nowhere
 // Mean squares of sines. Texture has .5; of small targets nine of ten have less than .06 (sharp, tilted up to 50
 // degrees) and .18 (blurred, tilted up to 60, on pipes).
@@ -34,164 +30,90 @@ constexpr double APART = 6;  // centres of two spots [px]
 /** Size of a window in which spots are looked for. */
 struct Scale
 {
-  int cells;         // to either side of the middle one
+  int cells;         // of the window, to either side of the middle one
   int reach;         // of the look at a spot [px]
   int row_step;      // of the rows whose gradients are taken there
   double max_shift;  // of the spot from the window's middle [px]
 };
 constexpr std::array<Scale, 2> SCALES = {Scale{1, 11, 2, 9}, Scale{2, 17, 3, 12}};
 
-/** Adds the products of a row's gradients to those of each column. */
-OMR_VECTORIZED void addRow(const std::uint8_t* __restrict above, const std::uint8_t* __restrict row,
-                           const std::uint8_t* __restrict below, int width, float* __restrict xx, float* __restrict xy,
-                           float* __restrict yy)
+/**
+ * Sums over a spot's gradients g at places p from its middle; across: g x p, along: g p. Whole numbers; but squares of
+ * the last two only row by row.
+ */
+struct SpotSums
 {
-  for (int x = 1; x + 1 < width; ++x)
+  void add(const PixelGradients& gradients, const cv::v_int16x8& x, int y, int reach)
   {
-    const auto gx = static_cast<float>(row[x + 1] - row[x - 1]);
-    const auto gy = static_cast<float>(below[x] - above[x]);
-    xx[x] += gx * gx;
-    xy[x] += gx * gy;
-    yy[x] += gy * gy;
+    const cv::v_int16x8 is_near =
+        cv::v_setall_s16(static_cast<short>(reach * reach - y * y + 1)) > cv::v_mul_wrap(x, x);
+    const cv::v_int16x8 gx = gradients.x & is_near;
+    const cv::v_int16x8 gy = gradients.y & is_near;
+    const cv::v_int16x8 height = cv::v_setall_s16(static_cast<short>(y));
+    const cv::v_int16x8 across = cv::v_mul_wrap(gy, x) - cv::v_mul_wrap(gx, height);
+    const cv::v_int16x8 along = cv::v_mul_wrap(gx, x) + cv::v_mul_wrap(gy, height);
+    xx += cv::v_dotprod(gx, gx);
+    xy += cv::v_dotprod(gx, gy);
+    yy += cv::v_dotprod(gy, gy);
+    x_across += cv::v_dotprod(gx, across);
+    y_across += cv::v_dotprod(gy, across);
+    x_along += cv::v_dotprod(gx, along);
+    y_along += cv::v_dotprod(gy, along);
+    row_across += cv::v_dotprod(across, across);
+    row_along += cv::v_dotprod(along, along);
   }
-}
 
-/** Sums over the cells of xx, xy and yy, the products of the gradients. @return CV_32FC3 */
-cv::Mat3f tensorsOf(const cv::Mat& grey)
-{
-  cv::Mat3f cells(grey.rows / CELL, grey.cols / CELL);
-  cv::parallel_for_(cv::Range(0, cells.rows), [&](const cv::Range& range) {
-    const auto width = static_cast<std::size_t>(grey.cols);
-    std::vector<float> sums(3 * width);
-    for (int row = range.start; row < range.end; ++row)
-    {
-      std::fill(sums.begin(), sums.end(), 0.F);
-      for (int y = row * CELL + 1; y < std::min(grey.rows - 1, (row + 1) * CELL); y += CELL_ROW_STEP)
-      {
-        addRow(grey.ptr(y - 1), grey.ptr(y), grey.ptr(y + 1), grey.cols, sums.data(), sums.data() + width,
-               sums.data() + 2 * width);
-      }
-      for (int col = 0; col < cells.cols; ++col)
-      {
-        for (std::size_t product = 0; product < 3; ++product)
-        {
-          const auto from = sums.begin() + static_cast<std::ptrdiff_t>(product * width) + col * CELL;
-          cells(row, col)[static_cast<int>(product)] = std::accumulate(from, from + CELL, 0.F);
-        }
-      }
-    }
-  });
-  return cells;
-}
-
-/** Middles of the windows whose gradients are strong in all directions, more so than in those beside them. */
-std::vector<cv::Point2d> strongWindows(const cv::Mat3f& cells, const Scale& scale)
-{
-  const int side = 2 * scale.cells + 1;
-  cv::Mat3f windows;
-  cv::boxFilter(cells, windows, -1, cv::Size(side, side), cv::Point(-1, -1), false, cv::BORDER_CONSTANT);
-  const auto least = static_cast<float>(MIN_GRADIENT * MIN_GRADIENT * (side * CELL) * (side * CELL) / CELL_ROW_STEP);
-  cv::Mat1f marks(cells.size());
-  std::transform(windows[0], windows[0] + windows.total(), marks[0], [&](const cv::Vec3f& tensor) {
-    const float trace = tensor[0] + tensor[2];
-    const float determinant = 4 * (tensor[0] * tensor[2] - tensor[1] * tensor[1]);
-    return trace > least && determinant > MIN_ISOTROPY * trace * trace ? determinant / trace : 0;
-  });
-  std::vector<cv::Point2d> middles;
-  for (int row = 1; row + 1 < cells.rows; ++row)
+  void endRow()
   {
-    for (int col = 1; col + 1 < cells.cols; ++col)
-    {
-      const float mark = marks(row, col);
-      bool is_best = mark > 0;
-      for (int i = 0; i < 9 && is_best; ++i)
-      {
-        is_best = marks(row + i / 3 - 1, col + i % 3 - 1) <= mark;
-      }
-      if (is_best)
-      {
-        middles.emplace_back((col + .5) * CELL - .5, (row + .5) * CELL - .5);
-      }
-    }
+    across2 += cv::v_cvt_f32(row_across);
+    along2 += cv::v_cvt_f32(row_along);
+    row_across = row_along = cv::v_setzero_s32();
   }
-  return middles;
-}
 
-/** Sums over the columns of a spot, y from its middle: of the gradients' products, these times y, and times y^2. */
-struct ColumnSums
-{
-  static constexpr int WIDTH = 40;
-
-  std::array<float, WIDTH> xx{}, xy{}, yy{}, y_xx{}, y_xy{}, y_yy{}, y2_xx{}, y2_yy{};
+  cv::v_int32x4 xx = cv::v_setzero_s32(), xy = xx, yy = xx, x_across = xx, y_across = xx, x_along = xx, y_along = xx;
+  cv::v_int32x4 row_across = xx, row_along = xx;
+  cv::v_float32x4 across2 = cv::v_setzero_f32(), along2 = across2;
 };
-
-/** Adds a row of a spot: what lies within the reach of its middle. @param count of the columns, a multiple of 8 */
-OMR_VECTORIZED void addSpotRow(const std::uint8_t* __restrict above, const std::uint8_t* __restrict row,
-                               const std::uint8_t* __restrict below, int count, int reach, int y,
-                               ColumnSums& __restrict sums)
-{
-  const auto height = static_cast<float>(y);
-  const int room = reach * reach - y * y;
-  for (int i = 0; i < count; ++i)
-  {
-    const int x = i - count / 2;
-    const float weight = x * x <= room ? 1.F : 0.F;
-    const auto gx = weight * static_cast<float>(row[i + 1] - row[i - 1]);
-    const auto gy = weight * static_cast<float>(below[i] - above[i]);
-    sums.xx[i] += gx * gx;
-    sums.xy[i] += gx * gy;
-    sums.yy[i] += gy * gy;
-    sums.y_xx[i] += gx * gx * height;
-    sums.y_xy[i] += gx * gy * height;
-    sums.y_yy[i] += gy * gy * height;
-    sums.y2_xx[i] += gx * gx * height * height;
-    sums.y2_yy[i] += gy * gy * height * height;
-  }
-}
 
 /** The point that the gradients around a place point to best. @return nothing at the image's edge or if there is none
  */
 std::optional<RoundSpot> meetingPoint(const cv::Mat& grey, const cv::Point& middle, const Scale& scale)
 {
-  const int count = (2 * scale.reach + 8) / 8 * 8;
+  constexpr int LANES = PixelGradients::COUNT;
+  const int count = (2 * scale.reach + LANES) / LANES * LANES;
   const int margin = count / 2 + 1;
   if (!cv::Rect(margin, margin, grey.cols - 2 * margin, grey.rows - 2 * margin).contains(middle))
   {
     return {};
   }
-  ColumnSums sums;
+  SpotSums sums;
+  const cv::v_int16x8 lanes(0, 1, 2, 3, 4, 5, 6, 7);
   for (int y = -scale.reach + scale.reach % scale.row_step; y <= scale.reach; y += scale.row_step)
   {
-    const int from = middle.x - count / 2;
-    addSpotRow(grey.ptr(middle.y + y - 1) + from, grey.ptr(middle.y + y) + from, grey.ptr(middle.y + y + 1) + from,
-               count, scale.reach, y, sums);
+    const std::uint8_t* row = grey.ptr(middle.y + y) + middle.x;
+    for (int x = -count / 2; x < count / 2; x += LANES)
+    {
+      sums.add({row + x, grey.step}, lanes + cv::v_setall_s16(static_cast<short>(x)), y, scale.reach);
+    }
+    sums.endRow();
   }
   // A gradient g at p gives the line g x (c - p) = 0, weighted by |g|: normal equations for the point c.
-  double n11 = 0, n12 = 0, n22 = 0, b1 = 0, b2 = 0, constant = 0;
-  double weight = 0, moment_x = 0, moment_y = 0, moment = 0;  // of |g|^2
-  for (int i = 0; i < count; ++i)
-  {
-    const int x = i - count / 2;
-    n11 += sums.yy[i];
-    n12 -= sums.xy[i];
-    n22 += sums.xx[i];
-    b1 += x * sums.yy[i] - sums.y_xy[i];
-    b2 += sums.y_xx[i] - x * sums.xy[i];
-    constant += sums.y2_xx[i] - 2 * x * sums.y_xy[i] + x * x * sums.yy[i];
-    const double energy = static_cast<double>(sums.xx[i]) + sums.yy[i];
-    weight += energy;
-    moment_x += x * energy;
-    moment_y += static_cast<double>(sums.y_xx[i]) + sums.y_yy[i];
-    moment += x * x * energy + sums.y2_xx[i] + sums.y2_yy[i];
-  }
+  const double n11 = cv::v_reduce_sum(sums.yy);
+  const double n12 = -cv::v_reduce_sum(sums.xy);
+  const double n22 = cv::v_reduce_sum(sums.xx);
+  const double b1 = cv::v_reduce_sum(sums.y_across);
+  const double b2 = -cv::v_reduce_sum(sums.x_across);
   const double determinant = n11 * n22 - n12 * n12;
   if (determinant <= MIN_DETERMINANT * (n11 + n22) * (n11 + n22))
   {
     return {};
   }
   const cv::Point2d shift((b1 * n22 - b2 * n12) / determinant, (b2 * n11 - b1 * n12) / determinant);
-  const double rest = constant - shift.x * b1 - shift.y * b2;
-  const double all = moment - 2 * (shift.x * moment_x + shift.y * moment_y) + shift.dot(shift) * weight;
+  const double across = cv::v_reduce_sum(sums.across2);
+  const double rest = across - shift.x * b1 - shift.y * b2;
+  // Of |g|^2 |p - c|^2.
+  const cv::Point2d moment(b1 + cv::v_reduce_sum(sums.x_along), b2 + cv::v_reduce_sum(sums.y_along));
+  const double all = across + cv::v_reduce_sum(sums.along2) - 2 * shift.dot(moment) + shift.dot(shift) * (n11 + n22);
   return RoundSpot{cv::Point2d(middle) + shift, rest / all};
 }
 
@@ -208,42 +130,58 @@ std::optional<RoundSpot> lookAt(const cv::Mat& grey, const cv::Point2d& middle, 
   }
   return spot && spot->deviation < MAX_DEVIATION ? spot : std::nullopt;
 }
+
+/** Squares of slope times radius, of grey values that rise and that fall away from a point, of each column. */
+struct SlopeSums
+{
+  std::array<float, 2 * RING_REACH + 1> rising{}, falling{};
+};
+
+/** @param radius of the row's first pixel from the point. */
+OMR_VECTORIZED void addSlopes(const std::uint8_t* __restrict above, const std::uint8_t* __restrict row,
+                              const std::uint8_t* __restrict below, int count, float radius_x, float radius_y,
+                              SlopeSums& __restrict sums)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const float x = radius_x + static_cast<float>(i);
+    const float weight = x * x + radius_y * radius_y < RING_REACH * RING_REACH ? 1.F : 0.F;
+    const float slope =
+        weight * (static_cast<float>(row[i + 1] - row[i - 1]) * x + static_cast<float>(below[i] - above[i]) * radius_y);
+    const float rising = std::max(slope, 0.F);
+    const float falling = std::min(slope, 0.F);
+    sums.rising[i] += rising * rising;
+    sums.falling[i] += falling * falling;
+  }
+}
+
 /** Whether the grey values fall towards the spot as well as rise: disks and squares have one kind of edges. */
 bool hasRings(const cv::Mat& grey, const cv::Point2d& center)
 {
-  const cv::Rect inner(1, 1, grey.cols - 2, grey.rows - 2);
   const cv::Point middle = center;
   const cv::Rect around =
-      cv::Rect(middle.x - RING_REACH, middle.y - RING_REACH, 2 * RING_REACH + 1, 2 * RING_REACH + 1);
-  double rising = 0;
-  double falling = 0;
-  for (int y = (around & inner).y; y < (around & inner).br().y; ++y)
+      cv::Rect(middle.x - RING_REACH, middle.y - RING_REACH, 2 * RING_REACH + 1, 2 * RING_REACH + 1) &
+      cv::Rect(1, 1, grey.cols - 2, grey.rows - 2);
+  SlopeSums sums;
+  for (int y = around.y; y < around.br().y; ++y)
   {
-    const std::uint8_t* above = grey.ptr(y - 1);
-    const std::uint8_t* row = grey.ptr(y);
-    const std::uint8_t* below = grey.ptr(y + 1);
-    for (int x = (around & inner).x; x < (around & inner).br().x; ++x)
-    {
-      const cv::Point2d radius = cv::Point2d(x, y) - center;
-      const double slope = (row[x + 1] - row[x - 1]) * radius.x + (below[x] - above[x]) * radius.y;
-      (slope > 0 ? rising : falling) += radius.dot(radius) < RING_REACH * RING_REACH ? slope * slope : 0;
-    }
+    const std::uint8_t* row = grey.ptr(y) + around.x;
+    addSlopes(row - grey.step, row, row + grey.step, around.width, static_cast<float>(around.x - center.x),
+              static_cast<float>(y - center.y), sums);
   }
+  const double rising = std::accumulate(sums.rising.begin(), sums.rising.end(), 0.);
+  const double falling = std::accumulate(sums.falling.begin(), sums.falling.end(), 0.);
   return std::min(rising, falling) > MIN_OTHER_KIND * (rising + falling);
 }
 }  // namespace
 
 std::vector<RoundSpot> findRoundSpots(const cv::Mat& grey)
 {
-  if (grey.cols < CELL || grey.rows < CELL)
-  {
-    return {};
-  }
-  const cv::Mat3f cells = tensorsOf(grey);
+  const RoundWindows windows(grey);
   std::vector<RoundSpot> spots;
   for (const Scale& scale : SCALES)
   {
-    for (const cv::Point2d& middle : strongWindows(cells, scale))
+    for (const cv::Point2d& middle : windows.strongest(scale.cells))
     {
       if (const std::optional<RoundSpot> spot = lookAt(grey, middle, scale))
       {

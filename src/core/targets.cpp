@@ -199,7 +199,14 @@ void TargetSearch::lookAtImage()
   if (state_->prepare())
   {
     growFamilies(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
-    addRoundSpots(state_->bgr, state_->seeds);
+  }
+}
+
+void TargetSearch::lookAtGrey(const cv::Mat& grey)
+{
+  if (grey.type() == CV_8UC1 && grey.size() == state_->bgr.size())
+  {
+    addRoundSpots(grey, state_->seeds);
   }
 }
 
@@ -251,7 +258,9 @@ std::vector<Target> TargetSearch::finish(const RegionMap& regions, const std::ve
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
                                 const Settings& settings)
 {
-  return TargetSearch(frame.bgr, settings).finish(regions, boards);
+  TargetSearch search(frame.bgr, settings);
+  search.lookAtGrey(frame.raw_grey);
+  return search.finish(regions, boards);
 }
 
 }  // namespace omr
