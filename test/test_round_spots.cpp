@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "render_target.h"
+#include "small_rings.h"
 
 namespace
 {
@@ -60,6 +61,24 @@ TEST(RoundSpots, ringsComeBeforeDisks)
   ASSERT_EQ(2U, spots.size());
   EXPECT_LT(cv::norm(spots[0].center - cv::Point2d(203.4, 151.7)), .5);
   EXPECT_LT(2 * spots[1].deviation, spots[0].deviation) << "the disk is rounder";
+}
+
+TEST(RoundSpots, onlyThoseWithEdgesOfBothKindsMayBeRings)
+{
+  for (const double ring : {2., 2.5, 3.5})
+  {
+    for (const double tilt : {0., .6, .9})
+    {
+      const std::vector<omr::RoundSpot> spots = spotsIn(renderTarget(smallTarget(ring, tilt)));
+      ASSERT_FALSE(spots.empty());
+      EXPECT_TRUE(omr::mayBeRings(spots[0])) << ring << " " << tilt;
+    }
+  }
+  cv::Mat disk(240, 320, CV_8UC3, cv::Scalar::all(60));
+  cv::ellipse(disk, cv::RotatedRect({80, 80}, {18, 14}, 30), cv::Scalar::all(250), cv::FILLED, cv::LINE_AA);
+  const std::vector<omr::RoundSpot> spots = spotsIn(disk);
+  ASSERT_EQ(1U, spots.size());
+  EXPECT_FALSE(omr::mayBeRings(spots[0]));
 }
 
 TEST(RoundSpots, textureCornersAndBarsAreNone)

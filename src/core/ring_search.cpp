@@ -105,7 +105,8 @@ class Search
     std::vector<RoundSpot> open;
     for (const RoundSpot& spot : spots)
     {
-      if (open.size() < MAX_SPOTS && !isOnBoard(spot.center, boards_) && !isInAny(candidates_, spot.center))
+      if (open.size() < MAX_SPOTS && mayBeRings(spot) && !isOnBoard(spot.center, boards_) &&
+          !isInAny(candidates_, spot.center))
       {
         open.push_back(spot);
       }

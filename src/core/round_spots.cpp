@@ -155,8 +155,8 @@ OMR_VECTORIZED void addSlopes(const std::uint8_t* __restrict above, const std::u
   }
 }
 
-/** Whether the grey values fall towards the spot as well as rise: disks and squares have one kind of edges. */
-bool hasRings(const cv::Mat& grey, const cv::Point2d& center)
+/** RoundSpot::other_kind: disks and squares have one kind of edges. */
+double otherKind(const cv::Mat& grey, const cv::Point2d& center)
 {
   const cv::Point middle = center;
   const cv::Rect around =
@@ -171,7 +171,7 @@ bool hasRings(const cv::Mat& grey, const cv::Point2d& center)
   }
   const double rising = std::accumulate(sums.rising.begin(), sums.rising.end(), 0.);
   const double falling = std::accumulate(sums.falling.begin(), sums.falling.end(), 0.);
-  return std::min(rising, falling) > MIN_OTHER_KIND * (rising + falling);
+  return std::min(rising, falling) / std::max(1., rising + falling);
 }
 }  // namespace
 
@@ -199,9 +199,11 @@ std::vector<RoundSpot> findRoundSpots(const cv::Mat& grey)
         }))
     {
       apart.push_back(spot);
+      apart.back().other_kind = otherKind(grey, spot.center);
     }
   }
-  std::stable_partition(apart.begin(), apart.end(), [&](const RoundSpot& spot) { return hasRings(grey, spot.center); });
+  std::stable_partition(apart.begin(), apart.end(),
+                        [](const RoundSpot& spot) { return spot.other_kind > MIN_OTHER_KIND; });
   return apart;
 }
 

@@ -11,6 +11,8 @@ struct RoundSpot
 {
   cv::Point2d center;    ///< which the gradients point to or from [px]
   double deviation = 0;  ///< mean square of the sine between gradient and radius; texture has .5
+  /** Share of the rarer kind of edges, of those where the grey values rise and fall away from the centre [0, .5]. */
+  double other_kind = 0;
 };
 
 /**

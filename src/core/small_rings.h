@@ -9,6 +9,9 @@
 
 namespace omr
 {
+/** Whether there are enough edges of both kinds to grow it. */
+bool mayBeRings(const RoundSpot& spot);
+
 /**
  * Grows what a round spot may be the middle of, in the image and in a twofold enlargement of its surroundings: between
  * the edges of rings of 2 to 3.5 px the image has too few pixels, of blurred ones the enlargement shows too little.
