@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -157,6 +158,30 @@ TEST(Overlay, circlesSeenSquaresInOneColorPerBoard)
     EXPECT_EQ(i == 8 ? cv::Vec3b(90, 90, 90) : first, left_of(markers.checkerboards[0].squares[i])) << i;
     EXPECT_EQ(second, left_of(markers.checkerboards[1].squares[i])) << i;
   }
+}
+
+TEST(Overlay, theOutlineOfABentBoardIsBent)
+{
+  // Its lines from top to bottom stay upright, the others are parabolas 30 px high.
+  const auto bend = [](const cv::Point2f& point) {
+    const double across = (point.x - 320) / 210;
+    return cv::Point2f(point.x, static_cast<float>(point.y - 30 * (1 - across * across)));
+  };
+  Checkerboard board = makeBoard(5, 7, 60, {110, 100});
+  std::transform(board.corners.begin(), board.corners.end(), board.corners.begin(), bend);
+  std::transform(board.inner_corners.begin(), board.inner_corners.end(), board.inner_corners.begin(), bend);
+  board.squares_seen.assign(board.squares_seen.size(), false);
+  const auto is_drawn = [&](const cv::Point2f& at) {
+    Markers markers;
+    markers.checkerboards = {board};
+    return countChanged(draw({640, 480}, markers)(cv::Rect(cvRound(at.x) - 1, cvRound(at.y) - 1, 3, 3))) > 0;
+  };
+  EXPECT_TRUE(is_drawn(bend({350, 100})));
+  EXPECT_TRUE(is_drawn(bend({290, 400})));
+  EXPECT_FALSE(is_drawn({320, 100}));
+  board.inner_corners_seen.assign(board.inner_corners_seen.size(), false);  // where nothing is seen nothing bends
+  EXPECT_FALSE(is_drawn(bend({350, 100})));
+  EXPECT_TRUE(is_drawn({350, 100}));
 }
 
 TEST(Overlay, tellsSeenInnerCornersFromHiddenOnes)

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "bent_outline.h"
+
 namespace omr
 {
 namespace
@@ -168,9 +170,10 @@ std::string sizeText(const Checkerboard& board)
 void drawCheckerboard(Canvas& canvas, const Checkerboard& board, const Color& color)
 {
   const double mark = std::max(1., std::min(0.2 * squareSide(board), 6 * canvas.scale));
-  for (std::size_t i = 0; i < board.corners.size(); ++i)
+  const std::vector<cv::Point2f> outline = bentOutline(board);
+  for (std::size_t i = 0; i < outline.size(); ++i)
   {
-    drawLine(canvas, board.corners[i], board.corners[(i + 1) % board.corners.size()], color);
+    drawLine(canvas, outline[i], outline[(i + 1) % outline.size()], color);
   }
   drawCircle(canvas, board.corners[0], 3 * canvas.scale, color, cv::FILLED);
   for (std::size_t i = 0; i < std::min(board.squares.size(), board.squares_seen.size()); ++i)
