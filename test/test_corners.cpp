@@ -123,6 +123,9 @@ TEST(Corners, whatCoversAPartOfOneBendsNone)
     Lattice lattice = grow(frame, frameAt(board, 3, 3));
     ASSERT_EQ(cv::Size(8, 6), lattice.box.size());
     const std::vector<bool> seen = refineCorners(frame, lattice);
+    // Where it covers a third of what is around a corner, the others say where that is.
+    EXPECT_EQ(0, std::count(seen.begin() + 3 * 8 + 5, seen.begin() + 4 * 8, true));
+    EXPECT_EQ(6 * 8 - 4 * 3, std::count(seen.begin(), seen.end(), true));
     for (int i = 0; i < 6; ++i)
     {
       for (int j = 0; j < 8; ++j)
