@@ -27,7 +27,7 @@ struct Checkerboard
   std::array<cv::Point2f, 4> corners;
 
   std::vector<cv::Point2f> inner_corners;  ///< (rows - 1) * (cols - 1), row by row
-  std::vector<bool> inner_corners_seen;    ///< false: hidden, its position is predicted from the seen ones
+  std::vector<bool> inner_corners_seen;    ///< false: hidden or in part, its position is predicted from the seen ones
 
   std::vector<cv::Point2f> squares;  ///< rows * cols forecast centres of the squares, row by row (paper, 3.4.1)
   std::vector<bool> squares_seen;    ///< see regularity.h; one a square, row by row
