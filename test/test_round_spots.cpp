@@ -81,6 +81,28 @@ TEST(RoundSpots, onlyThoseWithEdgesOfBothKindsMayBeRings)
   EXPECT_FALSE(omr::mayBeRings(spots[0]));
 }
 
+TEST(RoundSpots, aCentreOutsideTheImageIsNone)
+{
+  // Arcs around points to the left of the image: some say that they belong to rings far outside of it.
+  cv::RNG random(532);
+  for (int i = 0; i < 1200; ++i)
+  {
+    cv::Mat image(100, 100, CV_8UC3, cv::Scalar::all(200));
+    const float off = random.uniform(25.F, 60.F);
+    const cv::Point2f center(-off, random.uniform(30.F, 70.F));
+    for (float radius = off - 2; radius < off + 30; radius += 7)
+    {
+      const cv::Size2f size(2 * radius, 2 * radius * random.uniform(.5F, 1.F));
+      cv::ellipse(image, cv::RotatedRect(center, size, 0), cv::Scalar::all(40), 2, cv::LINE_AA);
+    }
+    const omr::EdgelMap map(image);
+    omr::RoundSpot spot;
+    spot.center = {random.uniform(4., 14.), random.uniform(20., 80.)};
+    omr::RingCandidate candidate;
+    ASSERT_NO_THROW(omr::growSpot(map, image, spot, 3, candidate)) << i;
+  }
+}
+
 TEST(RoundSpots, textureCornersAndBarsAreNone)
 {
   cv::Mat texture(240, 320, CV_8UC3);

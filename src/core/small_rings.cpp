@@ -122,7 +122,8 @@ bool mayBeRings(const RoundSpot& spot)
 bool growSpot(const EdgelMap& map, const cv::Mat& bgr, const RoundSpot& spot, int min_rings, RingCandidate& candidate)
 {
   RingSeed seed;
-  if (!findSeed(bgr, spot, seed))
+  // Arcs at the image's edge may belong to what lies far outside of it.
+  if (!findSeed(bgr, spot, seed) || !cv::Rect2d({}, cv::Size2d(bgr.size())).contains(seed.family.center))
   {
     return false;
   }
