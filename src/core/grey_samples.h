@@ -36,7 +36,8 @@ inline void sampleGreys(const cv::Mat& grey, const SamplePlaces<SIZE>& places, s
     share.y[i] = y - static_cast<float>(row);
     offset[i] = row * step + column;
   }
-  // Two bytes at once, of which on little-endian machines the lower one is the left.
+  // Two bytes at once, of which the lower one is the left.
+  static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "two neighbouring pixels are read as one number");
   std::array<int, SIZE> above;
   std::array<int, SIZE> below;
   for (std::size_t i = 0; i < SIZE; ++i)

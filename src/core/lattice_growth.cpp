@@ -127,6 +127,7 @@ struct Frontier
   std::array<Candidate, Lattice::SIZE * Lattice::SIZE> candidates;
   int count = 0;
 };
+
 /** How the step from corner to corner changes at one of them, in steps. */
 bool changeAt(const Lattice& lattice, int row, int col, int down, int right, cv::Point2f& change)
 {
@@ -152,6 +153,10 @@ bool bendsStrongly(const Lattice& lattice)
   constexpr float MAX_DIFFERENCE = 0.5F;    // of two lines, of the change
   constexpr float MIN_SHARE = 0.15F;        // of the places
   constexpr float MIN_CORRELATION = 0.97F;  // clutter has less; its lattices would be grown twice
+  if (lattice.count() < MIN_CORNERS)
+  {
+    return false;
+  }
   int count = 0;
   int bent = 0;
   const auto consider = [&](int row, int col, int down, int right) {
@@ -175,7 +180,7 @@ bool bendsStrongly(const Lattice& lattice)
       consider(i, j, 1, 0);
     }
   }
-  return lattice.count() >= MIN_CORNERS && correlation > MIN_CORRELATION * static_cast<float>(lattice.count()) &&
+  return correlation > MIN_CORRELATION * static_cast<float>(lattice.count()) &&
          static_cast<float>(bent) > MIN_SHARE * static_cast<float>(count);
 }
 
