@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "outdoor_omr/targets.h"
 #include "render_target.h"
+#include "targets.h"
 
 namespace omr::test
 {

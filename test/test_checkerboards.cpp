@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "outdoor_omr/checkerboards.h"
+#include "checkerboards.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "outdoor_omr/checkerboards.h"
-#include "outdoor_omr/corners.h"
+#include "checkerboards.h"
+#include "corners.h"
+#include "lattice_extent.h"
 #include "outdoor_omr/fill_pipeline.h"
-#include "outdoor_omr/lattice_extent.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "outdoor_omr/corner_look.h"
-#include "outdoor_omr/rim_look.h"
+#include "corner_look.h"
 #include "render.h"
+#include "rim_look.h"
 
 using omr::CornerLook;
 using omr::CornerLooker;

@@ -6,9 +6,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "corner_fit.h"
-#include "outdoor_omr/corner_look.h"
-#include "outdoor_omr/corners.h"
-#include "outdoor_omr/lattice_growth.h"
+#include "corner_look.h"
+#include "corners.h"
+#include "lattice_growth.h"
 #include "render.h"
 
 using omr::CornerLooker;

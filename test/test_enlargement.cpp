@@ -1,4 +1,4 @@
-#include "outdoor_omr/enlargement.h"
+#include "enlargement.h"
 
 #include <gtest/gtest.h>
 

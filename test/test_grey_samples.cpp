@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "outdoor_omr/corner_ring.h"
-#include "outdoor_omr/local_frame.h"
+#include "corner_ring.h"
+#include "local_frame.h"
 
 namespace
 {

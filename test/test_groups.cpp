@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "outdoor_omr/checkerboards.h"
+#include "checkerboards.h"
+#include "groups.h"
 #include "outdoor_omr/fill_pipeline.h"
-#include "outdoor_omr/groups.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"
 

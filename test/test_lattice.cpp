@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "outdoor_omr/lattice.h"
-#include "outdoor_omr/lattice_evidence.h"
-#include "outdoor_omr/lattice_extent.h"
-#include "outdoor_omr/lattice_gaps.h"
-#include "outdoor_omr/lattice_growth.h"
-#include "outdoor_omr/lattice_model.h"
-#include "outdoor_omr/lattice_prediction.h"
+#include "lattice.h"
+#include "lattice_evidence.h"
+#include "lattice_extent.h"
+#include "lattice_gaps.h"
+#include "lattice_growth.h"
+#include "lattice_model.h"
+#include "lattice_prediction.h"
 #include "render.h"
 
 using omr::CornerLook;

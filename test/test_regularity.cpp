@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "outdoor_omr/regularity.h"
+#include "regularity.h"
 #include "render.h"
 
 using omr::Region;

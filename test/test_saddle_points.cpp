@@ -1,4 +1,4 @@
-#include "outdoor_omr/saddle_points.h"
+#include "saddle_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "outdoor_omr/search_map.h"
+#include "search_map.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "../src/core/ring_candidate.h"
-#include "../src/core/ring_openness.h"
+#include "ring_candidate.h"
+#include "ring_openness.h"
 #include "target_views.h"
 
 using omr::AngleBins;

@@ -4,11 +4,11 @@
 #include <future>
 #include <utility>
 
+#include "checkerboards.h"
+#include "enlargement.h"
 #include "outdoor_omr/candidates.h"
-#include "outdoor_omr/checkerboards.h"
-#include "outdoor_omr/enlargement.h"
 #include "outdoor_omr/frame.h"
-#include "outdoor_omr/targets.h"
+#include "targets.h"
 
 namespace omr
 {

@@ -1,0 +1,138 @@
+#include "enlargement.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace omr
+{
+namespace
+{
+/** Cells of candidates that are enlarged, at most [px]: larger squares than three of them gain nothing. */
+constexpr int MAX_CELL = 4;
+
+/** Pixels of an enlargement at most: a quarter of a full-HD frame bounds the time. */
+constexpr double MAX_PIXELS = 518400;
+
+/** The box and half its size on each side, within the image. */
+cv::Rect surroundings(const cv::Rect& box, const cv::Size& image)
+{
+  const cv::Point margin(box.width / 2, box.height / 2);
+  return cv::Rect(box.tl() - margin, box.br() + margin) & cv::Rect({}, image);
+}
+
+/** From an enlargement to the image. The centre of the top-left pixel is (0, 0) in both. */
+struct Back
+{
+  int factor;
+  cv::Point2d origin;
+
+  template <typename Point>
+  Point operator()(const Point& point) const
+  {
+    using Number = decltype(point.x);
+    return {static_cast<Number>((point.x + .5) / factor - .5 + origin.x),
+            static_cast<Number>((point.y + .5) / factor - .5 + origin.y)};
+  }
+};
+
+void moveBack(Checkerboard& board, const Back& back)
+{
+  const auto move = [&back](auto& points) {
+    for (cv::Point2f& point : points)
+    {
+      point = back(point);
+    }
+  };
+  move(board.corners);
+  move(board.inner_corners);
+  move(board.squares);
+}
+
+void moveBack(Target& target, const Back& back)
+{
+  target.center = back(target.center);
+  for (cv::RotatedRect& ring : target.rings)
+  {
+    ring.center = back(ring.center);
+    ring.size = ring.size / static_cast<float>(back.factor);
+  }
+}
+
+cv::Rect boxOf(const Checkerboard& board)
+{
+  return cv::boundingRect(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()));
+}
+
+cv::Rect boxOf(const Target& target)
+{
+  return target.rings.back().boundingRect();
+}
+
+bool overlaps(const cv::Rect& box, const Markers& markers)
+{
+  const auto hit = [&box](const auto& marker) { return (box & boxOf(marker)).area() > 0; };
+  return std::any_of(markers.checkerboards.begin(), markers.checkerboards.end(), hit) ||
+         std::any_of(markers.targets.begin(), markers.targets.end(), hit);
+}
+
+/** Adds what shows the candidate and lies over no marker that is known. @return whether there was any. */
+template <typename Marker>
+bool addFound(std::vector<Marker>& found, const Candidate& candidate, const Back& back, const Markers& known,
+              std::vector<Marker>& markers)
+{
+  bool any = false;
+  for (Marker& marker : found)
+  {
+    moveBack(marker, back);
+    const cv::Rect box = boxOf(marker);
+    if ((box & candidate.box).area() > 0 && !overlaps(box, known))
+    {
+      markers.push_back(std::move(marker));
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool lookAt(const cv::Mat& bgr, const Candidate& candidate, const std::function<Markers(const cv::Mat&)>& detect,
+            Markers& markers)
+{
+  const cv::Rect place = surroundings(candidate.box, bgr.size());
+  for (const int factor : {2, 3})
+  {
+    if (place.area() * static_cast<double>(factor) * factor > MAX_PIXELS)
+    {
+      return false;
+    }
+    cv::Mat enlarged;
+    cv::resize(bgr(place), enlarged, {}, factor, factor, cv::INTER_CUBIC);
+    Markers found = detect(enlarged);
+    const Back back = {factor, place.tl()};
+    const bool board = addFound(found.checkerboards, candidate, back, markers, markers.checkerboards);
+    const bool target = addFound(found.targets, candidate, back, markers, markers.targets);
+    if (board || target)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}  // namespace
+
+void readEnlarged(const cv::Mat& bgr, int looks, const std::function<Markers(const cv::Mat&)>& detect, Markers& markers)
+{
+  for (Candidate& candidate : markers.candidates)
+  {
+    if (looks == 0)
+    {
+      return;
+    }
+    if (!candidate.read && candidate.cell <= MAX_CELL)
+    {
+      candidate.read = lookAt(bgr, candidate, detect, markers);
+      --looks;
+    }
+  }
+}
+
+}  // namespace omr

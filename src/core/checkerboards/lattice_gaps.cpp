@@ -1,0 +1,191 @@
+#include "lattice_gaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "border.h"
+#include "lattice_growth.h"
+#include "lattice_model.h"
+#include "lattice_prediction.h"
+#include "lattice_side.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int REACH = 3;  // squares; with 4 the jump reaches the next board
+
+/** Looks for a corner that no found corner need be beside of: more is asked of it. */
+bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast,
+                   float tolerance, int row, int col, CornerLook& corner)
+{
+  constexpr float MIN_CORRELATION = 0.9F;
+  constexpr float MIN_CONTRAST_SHARE = 0.4F;
+  LocalFrame predicted;
+  if (model != nullptr)
+  {
+    predicted = model->frameAt(row, col);
+  }
+  else if (!predictNode(lattice, row, col, REACH + 2, predicted))
+  {
+    return false;
+  }
+  if (cross(predicted.u, predicted.v) * cross(lattice.seedFrame().u, lattice.seedFrame().v) <= 0)
+  {
+    return false;
+  }
+  CornerQuery query;
+  query.sign = lattice.sign(row, col);
+  query.tolerance = tolerance;
+  query.contrast = contrast;
+  query.correlation = MIN_CORRELATION;
+  corner = looker.look(predicted, query);
+  if (!corner.found || corner.contrast < MIN_CONTRAST_SHARE * contrast)
+  {
+    return false;
+  }
+  const float least = 0.6F * squareHeight(predicted);
+  for (int i = row - 2; i <= row + 2; ++i)
+  {
+    for (int j = col - 2; j <= col + 2; ++j)
+    {
+      if (lattice.found(i, j) && length(lattice.at(i, j).position - corner.position) < least)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool isWithinReach(const Lattice& lattice, int row, int col)
+{
+  for (int i = std::max(0, row - REACH); i <= std::min(Lattice::SIZE - 1, row + REACH); ++i)
+  {
+    for (int j = std::max(0, col - REACH); j <= std::min(Lattice::SIZE - 1, col + REACH); ++j)
+    {
+      if (lattice.found(i, j))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+}  // namespace
+
+void jumpGaps(Lattice& lattice, CornerLooker& looker)
+{
+  constexpr int MAX_ROUNDS = 9;
+  constexpr int MIN_CORNERS = 6;
+  // Where one attempt finds nothing the next is made: corners pulled by what hides their neighbours mislead the plain
+  // fit over three squares, a robust one loses boards of few corners.
+  struct Attempt
+  {
+    LatticeModel::Terms terms;
+    float tolerance;  // squares
+  };
+  constexpr std::array<Attempt, 3> ATTEMPTS = {
+      {{LatticeModel::homography, 0.2F}, {LatticeModel::robust_homography, 0.2F}, {LatticeModel::homography, 0.3F}}};
+  constexpr double MAX_RESIDUAL = 0.06;  // squares, at which one homography still says where the next square is
+  struct Find
+  {
+    int row, col;
+    CornerLook corner;
+  };
+  std::size_t attempt = 0;
+  for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS; ++round)
+  {
+    const cv::Rect box = lattice.box;
+    int reach[4] = {};
+    for (const Side side : SIDES)
+    {
+      reach[side] = lookAtBorder(lattice, looker.frame(), side, 1).ends() ? 0 : REACH;
+    }
+    const bool is_closed = std::all_of(std::begin(reach), std::end(reach), [](int squares) { return squares == 0; });
+    if (is_closed && lattice.count() == box.area())
+    {
+      return;
+    }
+    LatticeModel model;
+    const bool fits =
+        model.fit(lattice, ATTEMPTS[attempt].terms, 0) &&
+        model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
+    const float contrast = lattice.medianContrast();
+    std::vector<Find> finds;
+    for (int i = box.y - reach[top]; i < box.br().y + reach[bottom]; ++i)
+    {
+      for (int j = box.x - reach[left]; j < box.br().x + reach[right]; ++j)
+      {
+        Find find{i, j, {}};
+        if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j) &&
+            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, ATTEMPTS[attempt].tolerance, i, j,
+                          find.corner))
+        {
+          finds.push_back(find);
+        }
+      }
+    }
+    // One alone may be chance: another find or a corner must be beside it.
+    const Lattice& known = lattice;
+    const auto is_alone = [&](const Find& find) {
+      for (int i = find.row - 1; i <= find.row + 1; ++i)
+      {
+        for (int j = find.col - 1; j <= find.col + 1; ++j)
+        {
+          if (known.found(i, j))
+          {
+            return false;
+          }
+        }
+      }
+      return std::none_of(finds.begin(), finds.end(), [&](const Find& other) {
+        const int distance = std::max(std::abs(other.row - find.row), std::abs(other.col - find.col));
+        return distance == 1;
+      });
+    };
+    finds.erase(std::remove_if(finds.begin(), finds.end(), is_alone), finds.end());
+    for (const Find& find : finds)
+    {
+      lattice.put(find.row, find.col, find.corner);
+    }
+    attempt = finds.empty() ? attempt + 1 : 0;
+    if (attempt == ATTEMPTS.size())
+    {
+      return;
+    }
+    growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  }
+}
+
+void splitAtBorders(Lattice& lattice, const Frame& frame)
+{
+  for (const Side side : SIDES)
+  {
+    // From the middle outwards: a line without inner corners that has a border's outer ones on the inner side.
+    const int last = lineIndex(lattice, side, 0);
+    for (int line = Lattice::SEED; (last - line) * inwards(side) < 0; line -= inwards(side))
+    {
+      const BorderLine border = lookAtLine(lattice, frame, side, line, BORDER_WINDOW + 1);
+      // The next board begins a line further out at least: both lines are without inner corners.
+      const int inner_corners =
+          std::max(countOnLine(lattice, side, line), countOnLine(lattice, side, line - inwards(side)));
+      if (3 * inner_corners > border.seen)
+      {
+        continue;
+      }
+      if (border.seen >= 0.7 * border.places || (border.mayEnd() && inner_corners == 0))
+      {
+        while (lineIndex(lattice, side, 0) != line + inwards(side))
+        {
+          dropLine(lattice, side);
+        }
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace omr

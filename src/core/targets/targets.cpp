@@ -1,0 +1,266 @@
+#include "targets.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "color_key.h"
+#include "edgels.h"
+#include "ring_colors.h"
+#include "ring_search.h"
+
+namespace omr
+{
+namespace
+{
+// Distance of the edgels to their boundaries, most, of a target of which half is unknown; and of one without letters,
+// unless it is very clear: a helicopter's landing place comes near to one.
+constexpr double HALF_READ_RMS = .13;  // [px]
+constexpr double UNREAD_RMS = .085;    // [px]
+constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
+// Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
+// 42 px wide. Small ones must be very clear in any case: at 15 to 17 px these eyes have .89 to .94, targets below 30 px
+// .956 and more. An eye of 19 px has .97, but no colour in its middle: the disk of small ones must be read.
+constexpr double MEDIUM_DIAMETER = 50;  // [px]
+constexpr double SMALL_DIAMETER = 30;   // [px]
+// Clearness: evidence x visible share. With unknown rings the least: lenses, eyes and signs have rings too, and no
+// letters.
+constexpr double CLEAR = .85;
+constexpr double VERY_CLEAR = .95;
+
+// A boundary between two rings that read alike, as glare makes them.
+constexpr double EVIDENT_CONTRAST = .2;
+constexpr double EVIDENT_COHERENCE = .9;
+constexpr double EVIDENT_SHARE = .5;
+
+/**
+ * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
+ * half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be read: most spots of
+ * which less is have another number of rings.
+ */
+bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
+{
+  const auto count = static_cast<int>(target.colors.size());
+  const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
+  const int counted = std::min(count, candidate.ring_count);
+  const double clearness = candidate.evidence * candidate.visible;
+  const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
+                      RELATIVE_RMS * candidate.rings.radii.back();
+  if (counted < min_rings || (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
+  {
+    return false;
+  }
+  const cv::Size2f size = target.rings.back().size;
+  const float diameter = std::min(size.width, size.height);
+  if (counted == 3 && diameter < MEDIUM_DIAMETER)
+  {
+    const bool is_small = diameter < SMALL_DIAMETER;
+    const bool is_all_needed = candidate.is_spot || (is_small && target.colors[0] == '?');
+    return unknown <= (is_all_needed ? 0 : 1) && (clearness > VERY_CLEAR || (unknown == 0 && !is_small));
+  }
+  return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
+}
+
+/** Whether the ring's outer boundary shows: the colour inside it is the ring's, whatever hides its inner boundary. */
+bool isSeen(const std::vector<Boundary>& boundaries, std::size_t ring)
+{
+  return boundaries[ring].shown;
+}
+
+constexpr double SHARP_WIDTH = 7;  // of rings that show their colour in each direction without the blur's help [px]
+
+/** Whether there is a boundary, whatever the colours. */
+bool isEvident(const Boundary& boundary)
+{
+  return boundary.contrast > EVIDENT_CONTRAST && boundary.coherence > EVIDENT_COHERENCE &&
+         share(boundary.agreeing & boundary.supported) > EVIDENT_SHARE;
+}
+
+/** The key's letters; a boundary between equal ones is no ring's: the family loses it. */
+std::string readColors(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
+{
+  while (true)
+  {
+    std::vector<std::vector<LinearColor>> measured = {measureRingColors(profile, boundaries, radii)};
+    const bool is_sharp = narrowestRing(radii) > SHARP_WIDTH;
+    if (is_sharp)
+    {
+      measured.push_back(measureColorsIn(Light::brightest, profile, radii));
+      measured.push_back(measureColorsIn(Light::darkest, profile, radii));
+    }
+    std::vector<bool> seen(radii.size());
+    for (std::size_t k = 0; k < radii.size(); ++k)
+    {
+      seen[k] = isSeen(boundaries, k);
+    }
+    std::string key = readColorKey(measured, seen, is_sharp);
+    std::size_t k = 0;
+    for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
+    {
+      if (key[k] == key[k + 1])
+      {
+        key[k] = key[k + 1] = '?';
+      }
+    }
+    if (k + 1 >= key.size())
+    {
+      return key;
+    }
+    radii.erase(radii.begin() + static_cast<std::ptrdiff_t>(k));
+    boundaries.erase(boundaries.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
+void scaleBy(double factor, std::vector<double>& values)
+{
+  std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
+}
+
+/** @return false if the colours are no target's. */
+bool toTarget(RingCandidate candidate, int min_rings, Target& target)
+{
+  std::vector<double>& radii = candidate.rings.radii;
+  scaleBy(candidate.profile_scale, radii);
+  target.colors = readColors(*candidate.profile, candidate.boundaries, radii);
+  scaleBy(1. / candidate.profile_scale, radii);
+  target.center = cv::Point2f(candidate.rings.family.center);
+  for (const double radius : radii)
+  {
+    target.rings.push_back(candidate.rings.family.ellipse(radius));
+  }
+  return isReadable(target, candidate, min_rings);
+}
+
+std::vector<Target> readTargets(std::vector<RingCandidate> candidates, int min_rings)
+{
+  std::vector<Target> read(candidates.size());
+  std::vector<char> is_target(candidates.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      is_target[i] = toTarget(std::move(candidates[i]), min_rings, read[i]) ? 1 : 0;
+    }
+  });
+  std::vector<Target> targets;
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    if (is_target[i] != 0)
+    {
+      targets.push_back(std::move(read[i]));
+    }
+  }
+  return targets;
+}
+
+/** Whether the boards lie in the same places, in the same order. */
+bool haveSameCorners(const std::vector<Checkerboard>& boards, const std::vector<Checkerboard>& others)
+{
+  return std::equal(boards.begin(), boards.end(), others.begin(), others.end(),
+                    [](const Checkerboard& a, const Checkerboard& b) { return a.corners == b.corners; });
+}
+}  // namespace
+
+struct TargetSearch::State
+{
+  State(cv::Mat image, const Settings& settings) : bgr(std::move(image)), min_rings(settings.target_min_rings)
+  {
+  }
+
+  /** Whether there is anything to search; makes what the search needs. */
+  bool prepare()
+  {
+    if (!map && !bgr.empty() && bgr.type() == CV_8UC3)
+    {
+      map = std::make_unique<EdgelMap>(bgr);
+    }
+    return map != nullptr;
+  }
+
+  cv::Mat bgr;
+  int min_rings;
+  std::unique_ptr<EdgelMap> map;
+  RoundSeeds seeds;
+  std::vector<Checkerboard> expected;
+  std::atomic<bool> is_vain{false};  // what is searched with them
+  std::optional<std::vector<Target>> targets;
+};
+
+TargetSearch::TargetSearch(const cv::Mat& bgr, const Settings& settings)
+    : state_(std::make_unique<State>(bgr, settings))
+{
+}
+
+TargetSearch::~TargetSearch() = default;
+
+void TargetSearch::lookAtImage()
+{
+  if (state_->prepare())
+  {
+    growFamilies(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
+  }
+}
+
+void TargetSearch::lookAtGrey(const cv::Mat& grey)
+{
+  if (grey.type() == CV_8UC1 && grey.size() == state_->bgr.size())
+  {
+    addRoundSpots(grey, state_->seeds);
+  }
+}
+
+void TargetSearch::lookAtRegions(const RegionMap& regions)
+{
+  if (state_->prepare())
+  {
+    addRoundSeeds(regions, state_->seeds);
+    growConcentric(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
+  }
+}
+
+void TargetSearch::expect(const std::vector<Checkerboard>& boards)
+{
+  state_->expected = boards;
+}
+
+void TargetSearch::lookAtRest(const RegionMap& regions)
+{
+  if (state_->prepare())
+  {
+    EdgelMap map = *state_->map;
+    state_->targets = readTargets(findRingCandidates(map, state_->bgr, regions, state_->seeds, state_->expected,
+                                                     state_->min_rings, &state_->is_vain),
+                                  state_->min_rings);
+  }
+}
+
+void TargetSearch::confirm(const std::vector<Checkerboard>& boards)
+{
+  state_->is_vain = !haveSameCorners(boards, state_->expected);
+}
+
+std::vector<Target> TargetSearch::finish(const RegionMap& regions, const std::vector<Checkerboard>& boards)
+{
+  if (!state_->prepare())
+  {
+    return {};
+  }
+  if (state_->targets && !state_->is_vain && haveSameCorners(boards, state_->expected))
+  {
+    return std::move(*state_->targets);
+  }
+  return readTargets(
+      findRingCandidates(*state_->map, state_->bgr, regions, std::move(state_->seeds), boards, state_->min_rings),
+      state_->min_rings);
+}
+
+std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
+                                const Settings& settings)
+{
+  TargetSearch search(frame.bgr, settings);
+  search.lookAtGrey(frame.raw_grey);
+  return search.finish(regions, boards);
+}
+
+}  // namespace omr
