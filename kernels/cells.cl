@@ -1,92 +1,183 @@
-// Cells of a level and blocks of 2 x 2 of them, from the integral image (paper, section 4.5). A plain version:
-// include/outdoor_omr/haar_features.h.
+// Cells of a level and blocks of 2 x 2 of them (paper, section 4.5). A cell's sum is that of four cells of the level
+// before, so no integral image is needed: the sums are those that one gives, in a quarter of the time. A plain version,
+// from an integral image: include/outdoor_omr/haar_features.h.
+
+#ifndef OUTDOOR_OMR_CELLS_CL
+#define OUTDOOR_OMR_CELLS_CL
 
 #include "geometry.cl"
 
-/** Four times the mean of a cell's pixels in a channel. */
-INLINE uint cellMean(global const uint* top, global const uint* bottom, int left, int right, int shift)
-{
-  return (bottom[right] - bottom[left] - top[right] + top[left]) >> shift;
-}
-
-/** The planes of blocks of 2 x 2 cells that haarCells writes, in the order of gateInputs() in haar_features.h. */
+/** The planes of blocks of 2 x 2 cells, in the order of gateInputs() in haar_features.h. */
 #define BLOCK_PLANES 6
 
-/** Sum of a block of 2 x 2 cells, and Haar responses across and down. */
-typedef struct
-{
-  int sum, across, down;
-} Block;
+/** Cells that a lane computes at a time: 16 KiB with their pixels. */
+#define CHUNK 128
 
-INLINE int difference(int a, int b)
+/** Blocks in a row of a plane: first those in even columns, then those in odd ones, which the gate reads apart; so many
+ * of either, a multiple of 8 since they are computed 16 at a time. */
+INLINE int evenBlocks(int cells_across)
+{
+  return (cells_across / 2 + 15) / 16 * 8;
+}
+
+/** The channels of cells from their logarithms. */
+INLINE void setCell(short blue, short green, short red, size_t plane, global short* cell)
+{
+  cell[0] = blue + green + red;
+  cell[plane] = red - green;
+  cell[2 * plane] = blue - green;
+}
+
+INLINE short16 difference(short16 a, short16 b)
 {
   return max(a, b) - min(a, b);
 }
 
-INLINE Block blockAt(global const short* upper, global const short* lower)
+/** Of 16 blocks in one plane: the sum, and Haar responses across and down. */
+typedef struct
 {
-  const int a = upper[0];
-  const int b = upper[1];
-  const int c = lower[0];
-  const int d = lower[1];
-  const Block block = {a + b + c + d, difference(a, b) + difference(c, d), difference(a, c) + difference(b, d)};
-  return block;
+  short16 sum, across, down;
+} Blocks16;
+
+INLINE Blocks16 blocksAt(global const short* upper, global const short* lower)
+{
+  const short16 a = (short16)(vload16(0, upper).even, vload16(1, upper).even);
+  const short16 b = (short16)(vload16(0, upper).odd, vload16(1, upper).odd);
+  const short16 c = (short16)(vload16(0, lower).even, vload16(1, lower).even);
+  const short16 d = (short16)(vload16(0, lower).odd, vload16(1, lower).odd);
+  const Blocks16 blocks = {a + b + c + d, difference(a, b) + difference(c, d), difference(a, c) + difference(b, d)};
+  return blocks;
+}
+
+INLINE void store(short16 blocks, int even, global short* out)
+{
+  vstore8(blocks.even, 0, out);
+  vstore8(blocks.odd, 0, out + even);
+}
+
+/** The blocks of some cells of two rows. @param cells with 32 more behind the last one. @param first a multiple of 32. */
+INLINE void setBlocks(global const short* cells, size_t plane, int cells_across, int block_row, int blocks_down,
+                      int first, int count, global short* blocks)
+{
+  const int even = evenBlocks(cells_across);
+  const size_t block_plane = (size_t)blocks_down * 2 * even;
+  global short* out = blocks + (size_t)block_row * 2 * even + first / 4;
+  for (int i = 0; i < count; i += 32)
+  {
+    global const short* upper = cells + (size_t)2 * block_row * cells_across + first + i;
+    global const short* lower = upper + cells_across;
+    const Blocks16 light = blocksAt(upper, lower);
+    const Blocks16 red = blocksAt(upper + plane, lower + plane);
+    const Blocks16 blue = blocksAt(upper + 2 * plane, lower + 2 * plane);
+    store(light.sum, even, out + i / 4);
+    store(red.sum, even, out + block_plane + i / 4);
+    store(blue.sum, even, out + 2 * block_plane + i / 4);
+    store(light.across, even, out + 3 * block_plane + i / 4);
+    store(light.down, even, out + 4 * block_plane + i / 4);
+    store(red.across + red.down + blue.across + blue.down, even, out + 5 * block_plane + i / 4);
+  }
 }
 
 /**
- * The brightness of the cells of a level, and what blocks of them have in common for all windows; one group two rows of
- * cells, which are a row of blocks.
+ * The cells of the first level, 2 x 2 px each; their blocks; and the sums of the cells of the next level. One group two
+ * rows of cells, which are a row of blocks and of the next level's cells.
  *
- * @param integral  as integral.cl gives it, of an image of the width.
  * @param logarithm of a cell's mean.
- * @param cells     three planes of cells_down rows of cells_across: b + g + r, r - g, b - g.
- * @param blocks    BLOCK_PLANES planes of cells_down / 2 rows of cells_across / 2.
+ * @param cells     three planes of cells_down rows of cells_across: b + g + r, r - g, b - g. Up to 32 behind the last
+ *                  one of a row may be read before they are set; the blocks that depend on them are padding.
+ * @param blocks    BLOCK_PLANES planes of cells_down / 2 rows of 2 * evenBlocks().
+ * @param sums      of the next level: three planes of cells_down / 2 rows of cells_across / 2.
  */
-kernel GROUP void haarCells(global const uint* restrict integral, int width, int level,
-                            global const short* restrict logarithm, int cells_across, int cells_down,
-                            global short* restrict cells, global short* restrict blocks)
+kernel GROUP void cellsOfImage(global const uchar* restrict image, long step, global const short* restrict logarithm,
+                               int cells_across, int cells_down, global short* restrict cells,
+                               global short* restrict blocks, global uint* restrict sums)
 {
   const int block_row = get_group_id(0);
-  const int side = 1 << level;  // of a cell in the integral image, which has every second pixel
-  const int columns = 3 * (width / 2) + 3;
+  const int blocks_down = cells_down / 2;
   const size_t plane = (size_t)cells_down * cells_across;
-  for (int y = 2 * block_row; y < min(cells_down, 2 * block_row + 2); ++y)
+  const size_t sum_plane = (size_t)blocks_down * (cells_across / 2);
+  const int rows = min(2, cells_down - 2 * block_row);
+  for (int first = CHUNK * get_local_id(0); first < cells_across; first += CHUNK * LANES)
   {
-    global const uint* restrict top = integral + (size_t)y * side * columns;
-    global const uint* restrict bottom = top + (size_t)side * columns;
-    global short* restrict row = cells + (size_t)y * cells_across;
-    for (int x = get_local_id(0); x < cells_across; x += LANES)
+    const int count = min(CHUNK, cells_across - first);
+    ushort four[2][6 * CHUNK];  // every sixth one is a cell's blue
+    for (int row = 0; row < rows; ++row)
     {
-      const int left = 3 * side * x;
-      const int right = left + 3 * side;
-      const short blue = logarithm[cellMean(top, bottom, left, right, 2 * level)];
-      const short green = logarithm[cellMean(top, bottom, left + 1, right + 1, 2 * level)];
-      const short red = logarithm[cellMean(top, bottom, left + 2, right + 2, 2 * level)];
-      row[x] = blue + green + red;
-      row[plane + x] = red - green;
-      row[2 * plane + x] = blue - green;
+      global const uchar* restrict upper = image + (4 * block_row + 2 * row) * step + 6 * first;
+      global const uchar* restrict lower = upper + step;
+      for (int i = 0; i < 6 * count - 3; ++i)
+      {
+        four[row][i] = upper[i] + upper[i + 3] + lower[i] + lower[i + 3];
+      }
+      global short* restrict out = cells + (size_t)(2 * block_row + row) * cells_across + first;
+#pragma clang loop vectorize(disable)  // a vector of lookups is slower
+      for (int x = 0; x < count; ++x)
+      {
+        const ushort* cell = four[row] + 6 * x;
+        setCell(logarithm[cell[0]], logarithm[cell[1]], logarithm[cell[2]], plane, out + x);
+      }
+    }
+    if (rows < 2)
+    {
+      continue;
+    }
+    setBlocks(cells, plane, cells_across, block_row, blocks_down, first, count, blocks);
+    for (int i = 0; i < 6 * count - 9; ++i)
+    {
+      four[0][i] += four[0][i + 6] + four[1][i] + four[1][i + 6];
+    }
+    global uint* restrict out = sums + (size_t)block_row * (cells_across / 2) + first / 2;
+#pragma clang loop vectorize(disable)
+    for (int x = 0; x < count / 2; ++x)
+    {
+      out[x] = four[0][12 * x];
+      out[sum_plane + x] = four[0][12 * x + 1];
+      out[2 * sum_plane + x] = four[0][12 * x + 2];
     }
   }
-  barrier(CLK_GLOBAL_MEM_FENCE);
-  const int across = cells_across / 2;
-  const size_t block_plane = (size_t)(cells_down / 2) * across;
-  if (block_row >= cells_down / 2)
+}
+
+/** The same for a further level. @param own the sums of its cells, as the level before gives them. */
+kernel GROUP void cellsOfSums(global const uint* restrict own, int level, global const short* restrict logarithm,
+                              int cells_across, int cells_down, global short* restrict cells,
+                              global short* restrict blocks, global uint* restrict sums)
+{
+  const int block_row = get_group_id(0);
+  const int blocks_down = cells_down / 2;
+  const size_t plane = (size_t)cells_down * cells_across;
+  const size_t sum_plane = (size_t)blocks_down * (cells_across / 2);
+  const int rows = min(2, cells_down - 2 * block_row);
+  for (int first = CHUNK * get_local_id(0); first < cells_across; first += CHUNK * LANES)
   {
-    return;
-  }
-  global const short* restrict upper = cells + (size_t)2 * block_row * cells_across;
-  global const short* restrict lower = upper + cells_across;
-  global short* restrict out = blocks + (size_t)block_row * across;
-  for (int x = get_local_id(0); x < across; x += LANES)
-  {
-    const Block light = blockAt(upper + 2 * x, lower + 2 * x);
-    const Block red = blockAt(upper + plane + 2 * x, lower + plane + 2 * x);
-    const Block blue = blockAt(upper + 2 * plane + 2 * x, lower + 2 * plane + 2 * x);
-    out[x] = light.sum;
-    out[block_plane + x] = red.sum;
-    out[2 * block_plane + x] = blue.sum;
-    out[3 * block_plane + x] = light.across;
-    out[4 * block_plane + x] = light.down;
-    out[5 * block_plane + x] = red.across + red.down + blue.across + blue.down;
+    const int count = min(CHUNK, cells_across - first);
+    const size_t start = (size_t)2 * block_row * cells_across + first;
+    for (int row = 0; row < rows; ++row)
+    {
+      global const uint* restrict sum = own + start + row * cells_across;
+      global short* restrict out = cells + start + row * cells_across;
+#pragma clang loop vectorize(disable)
+      for (int x = 0; x < count; ++x)
+      {
+        setCell(logarithm[sum[x] >> 2 * level], logarithm[sum[plane + x] >> 2 * level],
+                logarithm[sum[2 * plane + x] >> 2 * level], plane, out + x);
+      }
+    }
+    if (rows < 2)
+    {
+      continue;
+    }
+    setBlocks(cells, plane, cells_across, block_row, blocks_down, first, count, blocks);
+    for (int k = 0; k < 3; ++k)
+    {
+      global const uint* restrict upper = own + k * plane + start;
+      global const uint* restrict lower = upper + cells_across;
+      global uint* restrict out = sums + k * sum_plane + (size_t)block_row * (cells_across / 2) + first / 2;
+      for (int x = 0; x < count / 2; ++x)
+      {
+        out[x] = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+      }
+    }
   }
 }
+
+#endif

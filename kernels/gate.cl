@@ -9,17 +9,10 @@
 #define LEAST_BLOCK_CONTRAST 640
 #define LARGEST_INPUT 6.0f
 
-/** 16 blocks at any address in one load. */
-typedef struct __attribute__((packed))
+/** 16 blocks side by side in a plane. */
+INLINE int16 sixteen(global const short* at)
 {
-  short16 blocks;
-} Shorts16;
-
-/** The same block of 16 windows: every second one. */
-INLINE int16 blocksOf16(global const short* at)
-{
-  global const Shorts16* pairs = (global const Shorts16*)at;
-  return convert_int16((short16)(pairs[0].blocks.even, pairs[1].blocks.even));
+  return convert_int16(vload16(0, at));
 }
 
 INLINE int16 magnitude16(int16 value)
@@ -31,29 +24,30 @@ INLINE int16 magnitude16(int16 value)
  * Which windows of a level may show a marker at the first look: every second one of every second row, one group such a
  * row, 16 of them at a time: their blocks lie side by side.
  *
- * @param blocks  as haarCells gives them; 32 more may be read behind the last one.
+ * @param blocks  as cells.cl gives them; 16 more may be read behind the last one.
  * @param weights bias of the GATE_UNITS units, a row of them for each input, then bias and weights of either output.
  * @param units   0: every window passes.
  */
-kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_across, int blocks_down,
+kernel GROUP void gateWindows(global const short* restrict blocks, int cells_across, int blocks_down,
                               global const float* restrict weights, int units, float least_checkerboard,
                               float least_target, int looked_across, global uchar* restrict passes)
 {
-  const size_t plane = (size_t)blocks_down * blocks_across;
+  const int even = evenBlocks(cells_across);
+  const size_t plane = (size_t)blocks_down * 2 * even;
   const int row = get_group_id(0);
   global uchar* restrict out = passes + (size_t)row * looked_across;
   for (int i = 16 * get_local_id(0); i < looked_across; i += 16 * LANES)
   {
-    global const short* start = blocks + (size_t)2 * row * blocks_across + 2 * i;
+    global const short* start = blocks + (size_t)2 * row * 2 * even + i;
     int16 sum = 0;
     int16 contrast = 0;
     for (int y = 0; y < 4; ++y)
     {
       for (int x = 0; x < 4; ++x)
       {
-        global const short* at = start + y * blocks_across + x;
-        sum += blocksOf16(at);
-        contrast += blocksOf16(at + 3 * plane) + blocksOf16(at + 4 * plane);
+        global const short* at = start + (2 * y + x % 2) * even + x / 2;
+        sum += sixteen(at);
+        contrast += sixteen(at + 3 * plane) + sixteen(at + 4 * plane);
       }
     }
     const int16 mean = sum / 16;
@@ -62,7 +56,7 @@ kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_ac
     {
       for (int x = 0; x < 4; ++x)
       {
-        between += magnitude16(blocksOf16(start + y * blocks_across + x) - mean);
+        between += magnitude16(sixteen(start + (2 * y + x % 2) * even + x / 2) - mean);
       }
     }
     contrast += between / 2;
@@ -80,16 +74,16 @@ kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_ac
       {
         for (int x = 0; x < 4; ++x)
         {
-          global const short* at = start + y * blocks_across + x;
+          global const short* at = start + (2 * y + x % 2) * even + x / 2;
           for (int k = 0; k < BLOCK_PLANES; ++k)
           {
-            const int16 value = blocksOf16(at + k * plane) - (k == 0 ? mean : 0);
+            const int16 value = sixteen(at + k * plane) - (k == 0 ? mean : 0);
             const float16 input = clamp(convert_float16(value) * scale, -LARGEST_INPUT, LARGEST_INPUT);
             weight += GATE_UNITS;
 #pragma unroll
             for (int u = 0; u < GATE_UNITS; ++u)
             {
-              unit[u] = mad(input, weight[u], unit[u]);
+              unit[u] += input * weight[u];
             }
           }
         }
@@ -100,8 +94,8 @@ kernel GROUP void gateWindows(global const short* restrict blocks, int blocks_ac
       for (int u = 0; u < GATE_UNITS; ++u)
       {
         const float16 active = activation(unit[u]);
-        checkerboard = mad(active, weight[u + 1], checkerboard);
-        target = mad(active, weight[GATE_UNITS + u + 2], target);
+        checkerboard += active * weight[u + 1];
+        target += active * weight[GATE_UNITS + u + 2];
       }
       // The outputs are compared before their activation, which rises.
       pass &= checkerboard > least_checkerboard || target > least_target;

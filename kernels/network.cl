@@ -7,20 +7,21 @@
 
 /**
  * tanh(x / 2) = 1 - 2 / (1 + e^x). The power is 2^n with the nearest n times a series of 2^f, right to 2e-7: a library's
- * exp() may be a call for each lane.
+ * exp() may be a call for each lane, and rint() a dozen instructions. A sum with 1.5 * 2^23 ends in the nearest integer.
  */
 INLINE float16 activation(float16 x)
 {
+  const float to_integer = 12582912.0f;
   const float16 y = clamp(x * 1.44269504f, -60.0f, 60.0f);
-  const float16 n = rint(y);
-  const float16 f = (y - n) * 0.693147181f;
-  float16 series = mad(f, 1.0f / 720, 1.0f / 120);
-  series = mad(f, series, 1.0f / 24);
-  series = mad(f, series, 1.0f / 6);
-  series = mad(f, series, 0.5f);
-  series = mad(f, series, 1.0f);
-  series = mad(f, series, 1.0f);
-  return 1 - 2 / (1 + series * as_float16((convert_int16(n) + 127) << 23));
+  const float16 shifted = y + to_integer;
+  const float16 f = (y - (shifted - to_integer)) * 0.693147181f;
+  float16 series = f * (1.0f / 720) + 1.0f / 120;
+  series = f * series + 1.0f / 24;
+  series = f * series + 1.0f / 6;
+  series = f * series + 0.5f;
+  series = f * series + 1.0f;
+  series = f * series + 1.0f;
+  return 1 - 2 / (1 + as_float16(as_int16(series) + (as_int16(shifted) << 23)));
 }
 
 /** @param weights of 16 hidden units at a time a row for each of the INPUTS, then of each output: one a hidden unit, and the
@@ -43,7 +44,7 @@ INLINE float2 networkScores(const float* features, global const float* weights, 
 #pragma unroll
       for (int k = 0; k < 4; ++k)
       {
-        sums[k] = mad(features[i + k], vload16(i + k, of_group), sums[k]);
+        sums[k] += features[i + k] * vload16(i + k, of_group);
       }
     }
     vstore16((sums[0] + sums[1]) + (sums[2] + sums[3]), group, units);

@@ -54,9 +54,6 @@ class DeviceFill
    */
   void scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores);
 
-  /** Every second row and column of the loaded image's integral image, as cv::integral() gives it; waits. */
-  void readIntegral(cv::Mat& integral);
-
   /** In the place of scoreWindows(): frees what it needs after many images without. */
   void spareWindows();
 
@@ -118,7 +115,7 @@ class DeviceFill
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
   void warmUp();
   void reserveWindows();
-  void findIntegral();
+  void findCells(int level);
   void findRuns(const Strips& strips);
   bool sweep(int rounds);
   void mergeSeams();

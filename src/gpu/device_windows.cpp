@@ -9,13 +9,6 @@ namespace omr
 {
 namespace
 {
-/** Rows of a strip of the integral image, an even number: a group starts with the sums of all strips above, so few
- * strips are better; 16 a core divide the load. */
-int integralRows(int height, int compute_units)
-{
-  return std::max(16, 2 * divideUp(height, 32 * compute_units));
-}
-
 /** What a unit's weighted sum is where it gives a score. */
 float beforeActivation(float score)
 {
@@ -38,27 +31,22 @@ void DeviceFill::reserveWindows()
   {
     windows_ = std::make_unique<WindowBuffers>();
   }
-  windows_->reserve(context_, size_, divideUp(size_.height, integralRows(size_.height, compute_units_)));
+  windows_->reserve(context_, size_);
 }
 
-void DeviceFill::findIntegral()
+void DeviceFill::findCells(int level)
 {
-  if (geometry_ == Geometry::words)
+  const cv::Size cells = size_ / cellSize(level);
+  const Groups rows = {static_cast<std::size_t>(divideUp(cells.height, 2)), 1};
+  const cl::Buffer& next = *windows_->sums[level % 2];
+  if (level == 0)
   {
-    if (size_.height > 1)
-    {
-      launch("integralRows", {static_cast<std::size_t>(size_.height / 2), 1}, image_, step_, size_.width,
-             *windows_->integral);
-    }
-    launch("integralColumns", program_.groupsOf(3 * (static_cast<std::size_t>(size_.width / 2) + 1)), size_.width,
-           size_.height, *windows_->integral);
+    launch("cellsOfImage", rows, image_, step_, *windows_->logarithm, cells.width, cells.height, *windows_->cells,
+           *windows_->blocks, next);
     return;
   }
-  const int strip_rows = integralRows(size_.height, compute_units_);
-  const Groups groups = {static_cast<std::size_t>(divideUp(size_.height, strip_rows)), 1};
-  launch("columnSums", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_->column_sums);
-  launch("integralStrip", groups, image_, step_, size_.width, size_.height, strip_rows, *windows_->column_sums,
-         *windows_->integral);
+  launch("cellsOfSums", rows, *windows_->sums[1 - level % 2], level, *windows_->logarithm, cells.width, cells.height,
+         *windows_->cells, *windows_->blocks, next);
 }
 
 void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores)
@@ -79,7 +67,6 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     windows_->network = network;
   }
   const auto crossings = static_cast<cl_int>(haarTables().crossings.size());
-  findIntegral();
   int first = 0;
   for (int level = 0; level < HAAR_LEVELS; ++level)
   {
@@ -91,9 +78,8 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     const cv::Size cells = size_ / cellSize(level);
     const Groups window_rows = {static_cast<std::size_t>(grid.height), 1};
     const Groups looked_rows = {static_cast<std::size_t>(divideUp(grid.height, 2)), 1};
-    launch("haarCells", {static_cast<std::size_t>(divideUp(cells.height, 2)), 1}, *windows_->integral, size_.width,
-           level, *windows_->logarithm, cells.width, cells.height, *windows_->cells, *windows_->blocks);
-    launch("gateWindows", looked_rows, *windows_->blocks, cells.width / 2, cells.height / 2, *windows_->gate_weights,
+    findCells(level);
+    launch("gateWindows", looked_rows, *windows_->blocks, cells.width, cells.height / 2, *windows_->gate_weights,
            gate.hidden, beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]),
            divideUp(grid.width, 2), *windows_->passes);
     launch("scoreWindows", looked_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
@@ -108,14 +94,6 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     queue_.enqueueReadBuffer(*windows_->scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
   }
   scored_ = last_event_;
-}
-
-void DeviceFill::readIntegral(cv::Mat& integral)
-{
-  reserveWindows();
-  findIntegral();
-  integral.create(size_.height / 2 + 1, size_.width / 2 + 1, CV_32SC3);
-  queue_.enqueueReadBuffer(*windows_->integral, CL_TRUE, 0, integral.total() * integral.elemSize(), integral.data);
 }
 
 void DeviceFill::spareWindows()

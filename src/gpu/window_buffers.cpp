@@ -12,27 +12,27 @@ namespace
 constexpr std::size_t INPUTS = 152;  // HAAR_FEATURES, the bias, and zeros up to a multiple of 8
 constexpr std::size_t GATE_UNITS = MAX_GATE_UNITS;
 constexpr std::size_t BLOCK_PLANES = 6;
-constexpr std::size_t READ_BEYOND = 32;  // blocks
+constexpr std::size_t READ_BEYOND = 32;  // blocks and cells
 static_assert(GATE_UNITS == 16 && GATE_INPUTS == 96, "kernels/gate.cl has as many");
 static_assert(HAAR_FEATURES == 148, "kernels/haar.cl has the same number");
 static_assert(HAAR_SHIFTS == 40, "kernels/haar.cl has the same number");
 }  // namespace
 
-void WindowBuffers::reserve(const cl::Context& context, const cv::Size& size, int strips)
+void WindowBuffers::reserve(const cl::Context& context, const cv::Size& size)
 {
   const std::size_t width = size.width;
   const std::size_t height = size.height;
-  column_sums.reserve(context, strips * width * 3, sizeof(cl_uint));
-  integral.reserve(context, (height / 2 + 1) * (width / 2 + 1) * 3, sizeof(cl_uint));
-  cells.reserve(context, height / 2 * (width / 2) * 3, sizeof(cl_short));
-  blocks.reserve(context, height / 4 * (width / 4) * BLOCK_PLANES + READ_BEYOND, sizeof(cl_short));
+  sums[0].reserve(context, height / 4 * (width / 4) * 3 + 1, sizeof(cl_uint));
+  sums[1].reserve(context, height / 8 * (width / 8) * 3 + 1, sizeof(cl_uint));
+  cells.reserve(context, height / 2 * (width / 2) * 3 + READ_BEYOND, sizeof(cl_short));
+  blocks.reserve(context, height / 4 * (width / 4 + 16) * BLOCK_PLANES + READ_BEYOND, sizeof(cl_short));
   passes.reserve(context, windowGrid(size, 0).area() + 1, 1);
   scores.reserve(context, windowCount(size), sizeof(MarkerScores));
 }
 
 std::size_t WindowBuffers::bytes() const
 {
-  return column_sums.bytes() + integral.bytes() + cells.bytes() + logarithm.bytes() + tables.bytes() + weights.bytes() +
+  return sums[0].bytes() + sums[1].bytes() + cells.bytes() + logarithm.bytes() + tables.bytes() + weights.bytes() +
          gate_weights.bytes() + blocks.bytes() + passes.bytes() + scores.bytes();
 }
 

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_GPU_WINDOW_BUFFERS_H
 #define OUTDOOR_OMR_GPU_WINDOW_BUFFERS_H
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -9,13 +10,12 @@
 
 namespace omr
 {
-/** What the kernels of the preliminary detection keep on the device; the layouts are those of haar.cl and network.cl.
- */
+/** What the kernels of the preliminary detection keep on the device; the layouts are those of cells.cl, haar.cl and
+ * network.cl. */
 struct WindowBuffers
 {
-  GrowingBuffer column_sums;  ///< of each strip of rows
-  GrowingBuffer integral;     ///< (H / 2 + 1) x (W / 2 + 1) x 3
-  GrowingBuffer cells;        ///< three planes of the cells of a level
+  std::array<GrowingBuffer, 2> sums;  ///< of the cells of a level and of the next one, in turn
+  GrowingBuffer cells;                ///< three planes of the cells of a level
   GrowingBuffer logarithm;
   GrowingBuffer tables;
   GrowingBuffer weights;
@@ -27,7 +27,7 @@ struct WindowBuffers
   MarkerNetwork network;  ///< whose weights the buffers hold
 
   /** Makes room for an image of at least one pixel. @throws cl::Error if there is none. */
-  void reserve(const cl::Context& context, const cv::Size& size, int strips);
+  void reserve(const cl::Context& context, const cv::Size& size);
 
   std::size_t bytes() const;
 };
