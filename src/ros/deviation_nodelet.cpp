@@ -17,6 +17,7 @@
 #include "number_parameter.h"
 #include "outdoor_omr/deviation.h"
 #include "pose_messages.h"
+#include "reload_service.h"
 #include "status_report.h"
 
 namespace omr
@@ -102,20 +103,28 @@ class DeviationNodelet : public CheckedNodelet
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const auto file = private_nh.param<std::string>("goals", "");
+    const std::string read = readFile();
+    patience_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
+    NODELET_INFO("%s", read.c_str());
+    report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
+                                             [this](auto& status) { report(status); });
+    publisher_ = private_nh.advertise<outdoor_omr::DeviationArray>("deviations", 1);
+    parts_ = nh.subscribe<outdoor_omr::PartArray>(
+        "parts", 10, [this](const outdoor_omr::PartArrayConstPtr& parts) { receive(*parts); });
+    reload_ = advertiseReload(private_nh, [this] { return readFile(); });
+  }
+
+  /** Reads the goals file, changes nothing if it throws. @return what was read. */
+  std::string readFile()
+  {
+    const auto file = getPrivateNodeHandle().param<std::string>("goals", "");
     if (file.empty())
     {
       throw std::invalid_argument(
           "parameter ~goals: expected the path of a goals file; config/goals.yaml is an example");
     }
     goals_ = readGoals(file);
-    patience_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
-    NODELET_INFO("%zu goals in %s", goals_.size(), file.c_str());
-    report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
-                                             [this](auto& status) { report(status); });
-    publisher_ = private_nh.advertise<outdoor_omr::DeviationArray>("deviations", 1);
-    parts_ = nh.subscribe<outdoor_omr::PartArray>(
-        "parts", 10, [this](const outdoor_omr::PartArrayConstPtr& parts) { receive(*parts); });
+    return countOf(goals_.size(), "goal") + " in " + file;
   }
 
   void receive(const outdoor_omr::PartArray& parts)
@@ -203,6 +212,7 @@ class DeviationNodelet : public CheckedNodelet
 
   // Destroyed first: no callback outlives what it uses.
   std::unique_ptr<StatusReport> report_;
+  ros::ServiceServer reload_;
   ros::Subscriber parts_;
 };
 

@@ -17,6 +17,7 @@
 #include "part_fusion.h"
 #include "part_messages.h"
 #include "pose_messages.h"
+#include "reload_service.h"
 #include "status_report.h"
 #include "tracker_parameters.h"
 #include "view_collector.h"
@@ -51,12 +52,7 @@ class FusionNodelet : public CheckedNodelet
       throw std::invalid_argument("parameter ~frame: expected the TF frame to fuse in, as 'base', not '" + frame_ +
                                   "'");
     }
-    const auto file = private_nh.param<std::string>("parts", "");
-    if (!file.empty())
-    {
-      descriptions_ = readParts(file);
-      settings_.copies = copiesOf(descriptions_);
-    }
+    const std::string read = readFile();
     settings_.sigma.position = readNumber(private_nh, "camera_position_sigma", 0.001, 1);
     settings_.sigma.rotation = readNumber(private_nh, "camera_rotation_sigma", 0.0005, 1);
     settings_.min_cameras = private_nh.param("min_cameras", 1);
@@ -71,7 +67,7 @@ class FusionNodelet : public CheckedNodelet
     publish_tf_ = private_nh.param("publish_tf", true);
     collector_ =
         std::make_unique<ViewCollector>(topics_.size(), readNumber(private_nh, "time_tolerance", 0.02, 10), patience);
-    NODELET_INFO("%zu cameras, fused in %s", topics_.size(), frame_.c_str());
+    NODELET_INFO("%zu cameras, fused in %s, %s", topics_.size(), frame_.c_str(), read.c_str());
 
     parts_ = private_nh.advertise<outdoor_omr::PartArray>("parts", 1);
     markers_ = private_nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -93,6 +89,17 @@ class FusionNodelet : public CheckedNodelet
             }
           }));
     }
+    reload_ = advertiseReload(private_nh, [this] { return readFile(); });
+  }
+
+  /** Reads the parts file if one is named, changes nothing if it throws. @return what was read. */
+  std::string readFile()
+  {
+    const auto file = getPrivateNodeHandle().param<std::string>("parts", "");
+    const std::lock_guard<std::mutex> lock(mutex_);
+    descriptions_ = file.empty() ? std::vector<Part>() : readParts(file);
+    settings_.copies = copiesOf(descriptions_);
+    return file.empty() ? "no parts file" : countOf(descriptions_.size(), "part") + " in " + file;
   }
 
   double now() const
@@ -226,6 +233,7 @@ class FusionNodelet : public CheckedNodelet
   // Destroyed first: no callback outlives what it uses.
   std::unique_ptr<StatusReport> report_;
   ros::WallTimer late_;
+  ros::ServiceServer reload_;
   std::vector<ros::Subscriber> inputs_;
 };
 

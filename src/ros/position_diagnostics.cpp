@@ -1,7 +1,8 @@
 #include "position_diagnostics.h"
 
+#include <algorithm>
 #include <set>
-#include <vector>
+#include <utility>
 
 namespace omr
 {
@@ -39,23 +40,28 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 }  // namespace
 
 PositionDiagnostics::PositionDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,
-                                         const std::string& name)
-    : markers_topics_(nh.resolveName("checkerboards") + " and " + nh.resolveName("targets")),
-      camera_info_topic_(nh.resolveName("camera_info")),
+                                         const std::string& name, const std::vector<std::string>& parts)
+    : topics_{nh.resolveName("checkerboards"), nh.resolveName("targets"), nh.resolveName("camera_info")},
       report_(nh, private_nh, name, "position of parts", "none", [this](auto& status) { report(status); })
 {
+  partsAre(parts);
 }
 
-void PositionDiagnostics::markersCame()
+void PositionDiagnostics::partsAre(const std::vector<std::string>& parts)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_markers_ = Clock::now();
+  std::map<std::string, std::optional<Clock::time_point>> seen;
+  for (const std::string& part : parts)
+  {
+    seen[part] = seen_[part];
+  }
+  seen_ = std::move(seen);
 }
 
-void PositionDiagnostics::cameraInfoCame()
+void PositionDiagnostics::came(PositionInput input)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  last_camera_info_ = Clock::now();
+  last_.at(static_cast<std::size_t>(input)) = Clock::now();
 }
 
 void PositionDiagnostics::located(const outdoor_omr::PartArray& parts)
@@ -67,6 +73,10 @@ void PositionDiagnostics::located(const outdoor_omr::PartArray& parts)
   parts_ = static_cast<int>(parts.parts.size());
   ambiguous_ = static_cast<int>(parts.ambiguous.size());
   ambiguous_names_ = namesOf(parts.ambiguous);
+  for (const outdoor_omr::Part& part : parts.parts)
+  {
+    seen_[part.name] = last_match_;
+  }
 }
 
 void PositionDiagnostics::refused(const std::string& reason)
@@ -87,21 +97,54 @@ void PositionDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& st
   status.add("Last refusal", refusal_);
   status.add("Parts in the last image", parts_);
   status.add("Ambiguous in the last image", ambiguous_);
+  for (const auto& [part, time] : seen_)
+  {
+    if (time)
+    {
+      status.addf("Last pose of " + part, "%.1f s ago", secondsSince(*time));
+    }
+    else
+    {
+      status.add("Last pose of " + part, "never");
+    }
+  }
+}
+
+double PositionDiagnostics::silence(PositionInput input) const
+{
+  return secondsSince(last_.at(static_cast<std::size_t>(input)));
+}
+
+const std::string& PositionDiagnostics::topicOf(PositionInput input) const
+{
+  return topics_.at(static_cast<std::size_t>(input));
 }
 
 void PositionDiagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const
 {
-  if (secondsSince(last_markers_) > PATIENCE)
+  using Input = PositionInput;
+  const bool boards_lack = silence(Input::CHECKERBOARDS) > PATIENCE;
+  const bool targets_lack = silence(Input::TARGETS) > PATIENCE;
+  if (boards_lack && targets_lack)
   {
-    status.summaryf(DiagnosticStatus::WARN, "No message on %s for %.0f s: does the detector get images?",
-                    markers_topics_.c_str(), secondsSince(last_markers_));
+    status.summaryf(DiagnosticStatus::WARN, "No message on %s and %s for %.0f s: does the detector get images?",
+                    topicOf(Input::CHECKERBOARDS).c_str(), topicOf(Input::TARGETS).c_str(),
+                    std::min(silence(Input::CHECKERBOARDS), silence(Input::TARGETS)));
   }
-  else if (secondsSince(last_camera_info_) > PATIENCE)
+  else if (boards_lack || targets_lack)
+  {
+    const Input silent = boards_lack ? Input::CHECKERBOARDS : Input::TARGETS;
+    const Input other = boards_lack ? Input::TARGETS : Input::CHECKERBOARDS;
+    status.summaryf(DiagnosticStatus::ERROR,
+                    "No message on %s for %.0f s, but on %s, so no part has a position: are both of one detector?",
+                    topicOf(silent).c_str(), silence(silent), topicOf(other).c_str());
+  }
+  else if (silence(Input::CAMERA_INFO) > PATIENCE)
   {
     status.summaryf(
         DiagnosticStatus::ERROR,
         "No camera_info on %s for %.0f s, so no part has a position: does the camera's driver publish there?",
-        camera_info_topic_.c_str(), secondsSince(last_camera_info_));
+        topicOf(Input::CAMERA_INFO).c_str(), silence(Input::CAMERA_INFO));
   }
   else if (secondsSince(last_match_) > PATIENCE)
   {
@@ -109,7 +152,7 @@ void PositionDiagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper&
         DiagnosticStatus::ERROR,
         "For %.0f s no camera_info on %s has had the stamp of an image: is it of another camera, or stamped "
         "anew on its way?",
-        secondsSince(last_match_), camera_info_topic_.c_str());
+        secondsSince(last_match_), topicOf(Input::CAMERA_INFO).c_str());
   }
   else if (!refusal_.empty())
   {

@@ -2,7 +2,10 @@
 #include <message_filters/time_synchronizer.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 #include <string>
@@ -12,10 +15,21 @@
 #include "checked_nodelet.h"
 #include "part_messages.h"
 #include "position_diagnostics.h"
+#include "reload_service.h"
 #include "tracker_parameters.h"
 
 namespace omr
 {
+namespace
+{
+std::vector<std::string> namesOf(const std::vector<Part>& parts)
+{
+  std::vector<std::string> names;
+  std::transform(parts.begin(), parts.end(), std::back_inserter(names), [](const Part& part) { return part.name; });
+  return names;
+}
+}  // namespace
+
 /** Markers of an image and the camera's calibration in, positions of parts out. */
 class PositionNodelet : public CheckedNodelet
 {
@@ -30,13 +44,7 @@ class PositionNodelet : public CheckedNodelet
   {
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
-    const auto file = private_nh.param<std::string>("parts", "");
-    if (file.empty())
-    {
-      throw std::invalid_argument(
-          "parameter ~parts: expected the path of a parts file; config/parts.yaml is an example");
-    }
-    parts_ = readParts(file);
+    const std::string read = readFile();
     const auto kind = private_nh.param<std::string>("image_kind", "raw");
     if (kind != "raw" && kind != "rectified")
     {
@@ -45,8 +53,8 @@ class PositionNodelet : public CheckedNodelet
     kind_ = kind == "raw" ? ImageKind::RAW : ImageKind::RECTIFIED;
     tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
-    NODELET_INFO("%zu parts in %s, of %s images", parts_.size(), file.c_str(), kind.c_str());
-    diagnostics_ = std::make_unique<PositionDiagnostics>(nh, private_nh, getName());
+    NODELET_INFO("%s, of %s images", read.c_str(), kind.c_str());
+    diagnostics_ = std::make_unique<PositionDiagnostics>(nh, private_nh, getName(), namesOf(parts_));
 
     publisher_ = private_nh.advertise<outdoor_omr::PartArray>("parts", 1);
     markers_ = private_nh.advertise<visualization_msgs::MarkerArray>("markers", 1);
@@ -54,10 +62,30 @@ class PositionNodelet : public CheckedNodelet
     checkerboards_.subscribe(nh, "checkerboards", QUEUE);
     targets_.subscribe(nh, "targets", QUEUE);
     camera_info_.subscribe(nh, "camera_info", QUEUE);
-    checkerboards_.registerCallback([this](const auto& /*message*/) { diagnostics_->markersCame(); });
-    camera_info_.registerCallback([this](const auto& /*message*/) { diagnostics_->cameraInfoCame(); });
+    checkerboards_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::CHECKERBOARDS); });
+    targets_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::TARGETS); });
+    camera_info_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::CAMERA_INFO); });
+    matched_.setReset(true);  // a bag that begins anew: what waits for a match is of the last round, and in the way
     matched_.connectInput(checkerboards_, targets_, camera_info_);
     matched_.registerCallback(&PositionNodelet::receive, this);
+    reload_ = advertiseReload(private_nh, [this] {
+      std::string read = readFile();
+      diagnostics_->partsAre(namesOf(parts_));
+      return read;
+    });
+  }
+
+  /** Reads the parts file, changes nothing if it throws. @return what was read. */
+  std::string readFile()
+  {
+    const auto file = getPrivateNodeHandle().param<std::string>("parts", "");
+    if (file.empty())
+    {
+      throw std::invalid_argument(
+          "parameter ~parts: expected the path of a parts file; config/parts.yaml is an example");
+    }
+    parts_ = readParts(file);
+    return countOf(parts_.size(), "part") + " in " + file;
   }
 
   void receive(const outdoor_omr::CheckerboardArrayConstPtr& checkerboards,
@@ -78,7 +106,7 @@ class PositionNodelet : public CheckedNodelet
   void locate(const CheckerboardArray& checkerboards, const TargetArray& targets,
               const sensor_msgs::CameraInfo& camera_info)
   {
-    const Camera camera(fromMessage(camera_info), kind_);
+    const Camera camera = cameraOf(camera_info);
     const cv::Size size(static_cast<int>(checkerboards.width), static_cast<int>(checkerboards.height));
     if (camera.size() != size)
     {
@@ -107,6 +135,18 @@ class PositionNodelet : public CheckedNodelet
     diagnostics_->located(message);
   }
 
+  /** @throws std::invalid_argument naming the topic, for a message that describes no camera. */
+  Camera cameraOf(const sensor_msgs::CameraInfo& message) const
+  {
+    std::optional<Camera> camera;
+    const std::string error = caught([&] { camera.emplace(fromMessage(message), kind_); });
+    if (!error.empty())
+    {
+      throw std::invalid_argument(camera_info_.getSubscriber().getTopic() + ": " + error);
+    }
+    return *camera;
+  }
+
   std::vector<Part> parts_;
   ImageKind kind_ = ImageKind::RAW;
   bool publish_tf_ = true;
@@ -117,7 +157,8 @@ class PositionNodelet : public CheckedNodelet
   ros::Publisher markers_;
   tf2_ros::TransformBroadcaster broadcaster_;
 
-  // Destroyed from the last to the first: the synchronizer lets go of its inputs, then they end, before all else.
+  // Destroyed from the last to the first: the synchronizer lets go of its inputs, then these end, before all else.
+  ros::ServiceServer reload_;
   message_filters::Subscriber<CheckerboardArray> checkerboards_;
   message_filters::Subscriber<TargetArray> targets_;
   message_filters::Subscriber<sensor_msgs::CameraInfo> camera_info_;

@@ -120,15 +120,16 @@ inline sensor_msgs::ImagePtr toMessage(const cv::Mat& image, const ros::Time& st
   return message;
 }
 
-/** The newest status that the detector has told; empty before the first. */
-inline diagnostic_msgs::DiagnosticStatus newestStatus(const Listener<diagnostic_msgs::DiagnosticArray>& diagnostics)
+/** The newest status of that name; empty before the first. */
+inline diagnostic_msgs::DiagnosticStatus newestStatus(const Listener<diagnostic_msgs::DiagnosticArray>& diagnostics,
+                                                      const std::string& name = "detector: marker detection")
 {
   diagnostic_msgs::DiagnosticStatus newest;
   for (const auto& array : diagnostics.messages())
   {
     for (const diagnostic_msgs::DiagnosticStatus& status : array->status)
     {
-      newest = status.name == "detector: marker detection" ? status : newest;
+      newest = status.name == name ? status : newest;
     }
   }
   return newest;

@@ -1,6 +1,8 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
+#include <outdoor_omr/CheckerboardArray.h>
 #include <outdoor_omr/PartArray.h>
+#include <outdoor_omr/TargetArray.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -10,17 +12,22 @@
 #include <opencv2/core/affine.hpp>
 
 #include "board_view.h"
+#include "reload.h"
 #include "ros_test.h"
 
 using outdoor_omr::PartArray;
 using ros_test::cameraInfo;
 using ros_test::Listener;
+using ros_test::newestStatus;
 using ros_test::toMessage;
+using ros_test::valueOf;
 using ros_test::view;
 using ros_test::waitFor;
 
 namespace
 {
+const char* const STATUS = "position: position of parts";
+
 class Position : public testing::Test
 {
  protected:
@@ -62,13 +69,7 @@ class Position : public testing::Test
     const bool came = waitFor([&] {
       step();
       waitFor([] { return false; }, 0.5);
-      for (const auto& array : diagnostics_.messages())
-      {
-        for (const diagnostic_msgs::DiagnosticStatus& status : array->status)
-        {
-          last = status.name == "position: position of parts" ? status.message : last;
-        }
-      }
+      last = newestStatus(diagnostics_, STATUS).message;
       return last.find(text) != std::string::npos;
     });
     EXPECT_TRUE(came) << last;
@@ -190,6 +191,48 @@ TEST_F(Position, saysWhenCameraInfoIsMissingOrStale)
               image_.publish(image);
             }));
   EXPECT_EQ(before, parts_.count());
+}
+TEST_F(Position, saysWhichOfTheMarkersTopicsIsSilent)
+{
+  const auto only = [&](auto message, const std::string& topic) {
+    ros::Publisher publisher = nh_.advertise<decltype(message)>(topic, 1);
+    return [=, message = message]() mutable {
+      message.header.stamp = ros::Time(ros::WallTime::now().toSec());
+      publisher.publish(message);
+      camera_info_.publish(cameraInfo());
+    };
+  };
+  EXPECT_NE("", lastDiagnosticsUntil("No message on /detector/targets for",
+                                     only(outdoor_omr::CheckerboardArray(), "/detector/checkerboards")));
+  EXPECT_NE("", lastDiagnosticsUntil("No message on /detector/checkerboards for",
+                                     only(outdoor_omr::TargetArray(), "/detector/targets")));
+  EXPECT_NE("", lastDiagnosticsUntil("No message on /detector/checkerboards and /detector/targets for", [] {}));
+}
+
+TEST_F(Position, isOfThePartsFileAsReloaded)
+{
+  const cv::Mat picture = view(7, 10, POSE);
+  const ros_test::ReloadedFile file("/position", "parts");
+  std_srvs::TriggerResponse response =
+      file.reload("parts:\n- name: lid\n  checkerboards:\n  - {rows: 7, cols: 10, square: 30}\n");
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(file.path() +
+                ":4: parts[0].checkerboards[0].square: expected the side of a square in metres, 0.001 to 1, not '30'; "
+                "what was read before stays in force",
+            response.message);
+  PartArray answer = locate(picture);
+  ASSERT_EQ(1U, answer.parts.size());
+  EXPECT_EQ("plate", answer.parts.front().name);
+
+  response = file.reload("parts:\n- name: lid\n  checkerboards:\n  - {rows: 7, cols: 10, square: 0.03}\n");
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ("1 part in " + file.path(), response.message);
+  const auto last_pose = [&] { return valueOf(newestStatus(diagnostics_, STATUS), "Last pose of lid"); };
+  EXPECT_TRUE(waitFor([&] { return last_pose() == "never"; })) << last_pose();
+  answer = locate(picture);
+  ASSERT_EQ(1U, answer.parts.size());
+  EXPECT_EQ("lid", answer.parts.front().name);
+  EXPECT_TRUE(waitFor([&] { return last_pose().find(" s ago") != std::string::npos; })) << last_pose();
 }
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pose_messages.h"
+#include "reload.h"
 #include "ros_test.h"
 
 using outdoor_omr::Deviation;
@@ -130,6 +131,25 @@ TEST_F(DeviationNodelet, takesTheWayToTheGoalsFrameFromTf)
   EXPECT_EQ(deviations[1].verdict, Deviation::OUTSIDE);
   EXPECT_NEAR(deviations[1].translation_mm.x, 10, 1e-6);
   EXPECT_NEAR(deviations[1].translation_mm.z, 0, 1e-6);
+}
+TEST_F(DeviationNodelet, isFromTheGoalsFileAsReloaded)
+{
+  const ros_test::ReloadedFile file("/deviation", "goals");
+  const std::string goal = "goals:\n- part: plate\n  frame: camera\n  pose: {xyz: [0, 0, 1]}\n  tolerance_degrees: 1\n";
+  std_srvs::TriggerResponse response = file.reload(goal + "  tolerance_mm: 0\n");
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(0U, response.message.find(file.path() + ":6: goals[0].tolerance_mm: expected")) << response.message;
+  PartArray parts;
+  parts.parts = {partAt("plate", 0.001, 0, 1)};
+  EXPECT_EQ(2U, answer(parts).size());
+
+  response = file.reload(goal + "  tolerance_mm: 5\n");
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ("1 goal in " + file.path(), response.message);
+  const std::vector<Deviation> deviations = answer(parts);
+  ASSERT_EQ(1U, deviations.size());
+  EXPECT_EQ("camera", deviations[0].frame_id);
+  EXPECT_EQ(Deviation::WITHIN, deviations[0].verdict);
 }
 }  // namespace
 
