@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render_target.h"
-#include "targets.h"
+#include "targets/targets.h"
 
 namespace omr::test
 {

@@ -1,14 +1,14 @@
-#include "arc_families.h"
+#include "targets/arc_families.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
-#include "arc_circles.h"
-#include "arc_search.h"
-#include "pixel_set.h"
 #include "render_target.h"
+#include "targets/arc_circles.h"
+#include "targets/arc_search.h"
+#include "targets/pixel_set.h"
 
 namespace
 {

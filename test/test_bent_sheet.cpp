@@ -1,11 +1,11 @@
-#include "bent_sheet.h"
+#include "targets/bent_sheet.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bent_distances.h"
-#include "bent_point.h"
+#include "targets/bent_distances.h"
+#include "targets/bent_point.h"
 
 using omr::BentSheet;
 using omr::RingFamily;

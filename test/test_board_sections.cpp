@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "checkerboards.h"
+#include "checkerboards/checkerboards.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

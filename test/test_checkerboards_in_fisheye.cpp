@@ -4,9 +4,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "checkerboards.h"
-#include "corners.h"
-#include "lattice_extent.h"
+#include "checkerboards/checkerboards.h"
+#include "checkerboards/corners.h"
+#include "checkerboards/lattice_extent.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checkerboards.h"
+#include "checkerboards/checkerboards.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

@@ -1,4 +1,4 @@
-#include "color_key.h"
+#include "targets/color_key.h"
 
 #include <gtest/gtest.h>
 

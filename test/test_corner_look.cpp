@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "corner_look.h"
+#include "checkerboards/corner_look.h"
+#include "checkerboards/rim_look.h"
 #include "render.h"
-#include "rim_look.h"
 
 using omr::CornerLook;
 using omr::CornerLooker;

@@ -5,10 +5,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "corner_fit.h"
-#include "corner_look.h"
-#include "corners.h"
-#include "lattice_growth.h"
+#include "checkerboards/corner_fit.h"
+#include "checkerboards/corner_look.h"
+#include "checkerboards/corners.h"
+#include "checkerboards/lattice_growth.h"
 #include "render.h"
 
 using omr::CornerLooker;

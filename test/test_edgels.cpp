@@ -1,4 +1,4 @@
-#include "edgels.h"
+#include "targets/edgels.h"
 
 #include <gtest/gtest.h>
 

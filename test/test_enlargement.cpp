@@ -1,4 +1,4 @@
-#include "enlargement.h"
+#include "candidates/enlargement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "grey_samples.h"
+#include "checkerboards/grey_samples.h"
 
 #include <gtest/gtest.h>
 
-#include "corner_ring.h"
-#include "local_frame.h"
+#include "checkerboards/corner_ring.h"
+#include "checkerboards/local_frame.h"
 
 namespace
 {

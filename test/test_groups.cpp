@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checkerboards.h"
-#include "groups.h"
+#include "checkerboards/checkerboards.h"
+#include "checkerboards/groups.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

@@ -1,4 +1,4 @@
-#include "lane_median.h"
+#include "targets/lane_median.h"
 
 #include <gtest/gtest.h>
 

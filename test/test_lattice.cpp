@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "lattice.h"
-#include "lattice_evidence.h"
-#include "lattice_extent.h"
-#include "lattice_gaps.h"
-#include "lattice_growth.h"
-#include "lattice_model.h"
-#include "lattice_prediction.h"
+#include "checkerboards/lattice.h"
+#include "checkerboards/lattice_evidence.h"
+#include "checkerboards/lattice_extent.h"
+#include "checkerboards/lattice_gaps.h"
+#include "checkerboards/lattice_growth.h"
+#include "checkerboards/lattice_model.h"
+#include "checkerboards/lattice_prediction.h"
 #include "render.h"
 
 using omr::CornerLook;

@@ -1,4 +1,4 @@
-#include "point_grid.h"
+#include "checkerboards/point_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "radial_edgels.h"
+#include "targets/radial_edgels.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fast_angle.h"
 #include "render_target.h"
+#include "targets/fast_angle.h"
 
 namespace
 {

@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "checkerboards/rim_look.h"
 #include "render.h"
-#include "rim_look.h"
 
 using omr::Frame;
 using omr::RimLook;

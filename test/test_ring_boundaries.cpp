@@ -1,4 +1,4 @@
-#include "ring_boundaries.h"
+#include "targets/ring_boundaries.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ring_colors.h"
+#include "targets/ring_colors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "ring_deblur.h"
+#include "targets/ring_deblur.h"
 
 #include <gtest/gtest.h>
 
-#include "color_key.h"
 #include "render_target.h"
-#include "ring_fit.h"
+#include "targets/color_key.h"
+#include "targets/ring_fit.h"
 
 namespace
 {

@@ -1,5 +1,5 @@
-#include "bent_refinement.h"
-#include "ring_refinement.h"
+#include "targets/bent_refinement.h"
+#include "targets/ring_refinement.h"
 
 #include <gtest/gtest.h>
 

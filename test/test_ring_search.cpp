@@ -1,4 +1,4 @@
-#include "ring_search.h"
+#include "targets/ring_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "round_spots.h"
+#include "targets/round_spots.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
 #include "render_target.h"
-#include "small_rings.h"
+#include "targets/small_rings.h"
 
 namespace
 {

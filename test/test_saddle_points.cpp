@@ -1,4 +1,4 @@
-#include "saddle_points.h"
+#include "checkerboards/saddle_points.h"
 
 #include <gtest/gtest.h>
 

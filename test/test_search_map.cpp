@@ -1,4 +1,4 @@
-#include "search_map.h"
+#include "checkerboards/search_map.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "ring_candidate.h"
-#include "ring_openness.h"
 #include "target_views.h"
+#include "targets/ring_candidate.h"
+#include "targets/ring_openness.h"
 
 using omr::AngleBins;
 using omr::Target;

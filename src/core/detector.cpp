@@ -4,11 +4,11 @@
 #include <future>
 #include <utility>
 
-#include "checkerboards.h"
-#include "enlargement.h"
+#include "candidates/enlargement.h"
+#include "checkerboards/checkerboards.h"
 #include "outdoor_omr/candidates.h"
 #include "outdoor_omr/frame.h"
-#include "targets.h"
+#include "targets/targets.h"
 
 namespace omr
 {

@@ -14,11 +14,9 @@ CATCH = re.compile(r"\bcatch \(")
 STEPS = ["candidates", "checkerboards", "parts", "targets"]
 
 
-def strangers(step):
-    """The headers of the other steps: only detector.cpp may name them all."""
-    headers = [name for other in STEPS if other != step
-               for name in os.listdir(os.path.join(ROOT, "src", "core", other)) if name.endswith(".h")]
-    return re.compile(r'#include "({})"'.format("|".join(map(re.escape, headers))))
+def other_steps(step):
+    """Only detector.cpp may name them all."""
+    return re.compile(r'#include "({})/'.format("|".join(other for other in STEPS if other != step)))
 
 
 # Folder, what it must not mention, except in these files.
@@ -32,7 +30,7 @@ WALLS = [
     ("src/tools", OPENCL, []),
     ("src/ros", OPENCL, []),
     ("src/ros", CATCH, ["caught.cpp"]),
-] + [(os.path.join("src/core", step), strangers(step), []) for step in STEPS]
+] + [(os.path.join("src/core", step), other_steps(step), []) for step in STEPS]
 
 
 def lines_of(folder, exceptions):
