@@ -11,6 +11,31 @@ namespace
 constexpr double MAX_PIXELS = 550000;  // that arcs are traced in
 
 constexpr float STRENGTH = 1.3F;  // of the edgels, relative to the weakest: texture gives weak ones
+
+constexpr double LEAST_INSIDE = .42;  // of a circle: a target of which less can be seen is none
+
+/** Share of the circle that lies in the image. */
+double shareInside(const RingFamily& family, double radius, const cv::Size& image_size)
+{
+  constexpr int DIRECTIONS = 32;
+  const cv::Rect2d image(cv::Point2d(), image_size);
+  int inside = 0;
+  for (int i = 0; i < DIRECTIONS; ++i)
+  {
+    const double angle = 2 * CV_PI * i / DIRECTIONS;
+    inside += image.contains(family.toImage(radius * cv::Point2d(std::cos(angle), std::sin(angle)))) ? 1 : 0;
+  }
+  return inside / static_cast<double>(DIRECTIONS);
+}
+
+/** Takes away the largest circles, as of arcs that are nearly straight, while hardly any of them is in the image. */
+void dropOutside(const cv::Size& image_size, ArcFamily& family)
+{
+  while (!family.radii.empty() && shareInside(family.family, family.radii.back(), image_size) < LEAST_INSIDE)
+  {
+    family.radii.pop_back();
+  }
+}
 }  // namespace
 
 std::vector<ArcFamily> searchArcFamilies(const cv::Mat& bgr)
@@ -36,7 +61,11 @@ std::vector<ArcFamily> searchArcFamilies(const cv::Mat& bgr)
     {
       radius *= reduction;
     }
+    dropOutside(bgr.size(), family);
   }
+  families.erase(std::remove_if(families.begin(), families.end(),
+                                [](const ArcFamily& family) { return family.radii.empty(); }),
+                 families.end());
   return families;
 }
 

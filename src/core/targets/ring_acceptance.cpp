@@ -32,6 +32,9 @@ constexpr double MANY_TURNS = 1.75;     // of MANY_RINGS, which fit closer
 constexpr double CLOSER = .75;
 constexpr double MANY_EVIDENCE = .85;
 constexpr double FEW_TURNS = 1.7;  // of three rings
+// At first: what becomes a target shows 1.59 and more. Of 252 rings in 540 pictures 93 end here, .4 of the time that
+// open directions take.
+constexpr double FIRST_TURNS = 1.4;
 constexpr double FEW_EVIDENCE = .9;
 constexpr double FEW_ONE_SIDED = .45;
 constexpr double PERSPECTIVE_SLACK = .1;  // of h R: bent sheets, and the uncertainty of small targets
@@ -131,6 +134,11 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
 bool maySuffice(AngleBins open)
 {
   return share(open) >= OPEN_VISIBLE && widestGap(open) <= OPEN_GAP;
+}
+
+bool showsEnough(const RingCandidate& candidate)
+{
+  return turnsSeen(candidate.boundaries) > FIRST_TURNS;
 }
 
 }  // namespace omr

@@ -201,7 +201,7 @@ void tryOpenDirections(EdgelMap& map, const cv::Mat& bgr, const Rings& start, Ri
     }
     const double seen = share(open.rings.open);
     if (seen < LEAST_OPEN || seen > MOST_OPEN || !settle(own, bgr, open, edgels) ||
-        open.boundaries.size() < std::size_t{OPEN_RINGS})
+        open.boundaries.size() < std::size_t{OPEN_RINGS} || !showsEnough(open))
     {
       return;
     }

@@ -53,6 +53,9 @@ bool isTarget(const RingCandidate& candidate, int min_rings);
 /** Whether isTarget() may be true of rings that are looked at in some directions only. */
 bool maySuffice(AngleBins open);
 
+/** Whether it may become true of them, as what is seen so far tells. */
+bool showsEnough(const RingCandidate& candidate);
+
 }  // namespace omr
 
 #endif
