@@ -1,6 +1,7 @@
 #include "checkerboards.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -251,24 +252,26 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
                                             const std::function<void(const std::vector<Checkerboard>&)>& use_first,
                                             std::vector<Checkerboard>* sections)
 {
-  constexpr int SADDLE_LEVELS = 2;  // the second one for blurred boards: degrade 87 -> 90 of 96
+  // Of the allowed looks, those at the saddle points of each level; the second one is for blurred boards: degrade 87 ->
+  // 90 of 96. Of 268 boards found there none takes more looks in vain, but one with a wrong size.
+  constexpr std::array<double, 2> SADDLE_SHARES = {.7, .4};
   SearchMap map(frame.raw_grey.size());
   std::vector<Candidate> candidates;
   BoardSections found_sections;
-  const auto search = [&](const std::vector<Seed>& seeds) {
-    CornerLooker looker(frame, settings.checkerboard_looks);
+  const auto search = [&](const std::vector<Seed>& seeds, double share) {
+    CornerLooker looker(frame, static_cast<int>(share * settings.checkerboard_looks));
     findBoards(seeds, looker, map, candidates, found_sections);
   };
-  search(pairNeighbours(frame, regions));
+  search(pairNeighbours(frame, regions), 1);
   if (use_first)
   {
     use_first(finishAll(candidates, frame, regions));
   }
-  const int levels = std::min(SADDLE_LEVELS, static_cast<int>(frame.grey.size()));
+  const int levels = static_cast<int>(std::min(SADDLE_SHARES.size(), frame.grey.size()));
   for (int level = 0; settings.checkerboard_second_look && level < levels; ++level)
   {
     const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
-    search(groupSaddlePoints(frame, level, faint, map));
+    search(groupSaddlePoints(frame, level, faint, map), SADDLE_SHARES[level]);
   }
   if (sections != nullptr)
   {

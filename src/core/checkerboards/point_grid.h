@@ -54,6 +54,7 @@ class PointGrid
         continue;
       }
       found.clear();
+      int farthest = MAX_SQUARED;  // that is kept
       for (int y = cells.y; y < cells.br().y; ++y)
       {
         const int to = first_[y * cols_ + cells.br().x];
@@ -61,20 +62,18 @@ class PointGrid
         {
           const cv::Point offset = sorted_[i] - center;
           const int squared = offset.dot(offset);
-          if (squared >= MIN_SQUARED && squared < MAX_SQUARED)
+          if (squared >= MIN_SQUARED && squared < farthest)
           {
-            found.push_back({squared, offset});
+            insert({squared, offset}, found);
+            farthest = found.size() == MAX_NEIGHBOURS ? found.back().squared : MAX_SQUARED;
           }
         }
       }
-      if (found.size() >= MAX_NEIGHBOURS)
+      if (found.size() == MAX_NEIGHBOURS)
       {
         break;
       }
     }
-    const std::size_t kept = std::min<std::size_t>(found.size(), MAX_NEIGHBOURS);
-    std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
-    found.resize(kept);
   }
 
  private:
@@ -82,6 +81,21 @@ class PointGrid
   static constexpr int MAX_REACH = 3;
   static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
   static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
+
+  /** Where it belongs; the farthest of too many goes. */
+  static void insert(const Neighbour& neighbour, std::vector<Neighbour>& sorted)
+  {
+    if (sorted.size() < MAX_NEIGHBOURS)
+    {
+      sorted.emplace_back();
+    }
+    auto place = sorted.end() - 1;
+    for (; place != sorted.begin() && neighbour < *(place - 1); --place)
+    {
+      *place = *(place - 1);
+    }
+    *place = neighbour;
+  }
 
   cv::Rect cellsAround(const cv::Point& point, int reach) const
   {
