@@ -129,6 +129,18 @@ TEST(ArcFamilies, aScaleOfAnySizeKeepsPlaceAndSize)
   }
 }
 
+TEST(ArcFamilies, circlesMostlyOutsideTheImageAreLeftOut)
+{
+  const cv::Point center(110, 90);
+  cv::Mat image(600, 800, CV_8UC3, cv::Scalar::all(230));
+  cv::circle(image, center, 300, cv::Scalar::all(30), cv::FILLED, cv::LINE_AA);  // a third of it is inside
+  cv::circle(image, center, 70, cv::Scalar::all(230), cv::FILLED, cv::LINE_AA);
+  cv::circle(image, center, 40, cv::Scalar::all(30), cv::FILLED, cv::LINE_AA);
+  const std::vector<omr::ArcFamily> families = omr::searchArcFamilies(image);
+  ASSERT_EQ(1U, families.size());
+  EXPECT_NEAR(70, families[0].radii.back(), 1.5);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

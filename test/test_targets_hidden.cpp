@@ -109,6 +109,18 @@ TEST(HiddenTargets, tooFewOrOneSidedDirectionsAreGivenUpEarly)
   EXPECT_FALSE(omr::maySuffice(0x1111111111111111)) << "a quarter of them";
 }
 
+TEST(HiddenTargets, ringsThatShowTooLittleAreGivenUpEarly)
+{
+  omr::RingCandidate candidate;
+  omr::Boundary boundary;
+  boundary.coherence = .9;
+  boundary.agreeing = boundary.supported = 0xFFFFFFFF;  // half a turn
+  candidate.boundaries.assign(3, boundary);
+  EXPECT_FALSE(omr::showsEnough(candidate));
+  candidate.boundaries.assign(4, boundary);
+  EXPECT_TRUE(omr::showsEnough(candidate));
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

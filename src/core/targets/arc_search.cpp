@@ -63,9 +63,9 @@ std::vector<ArcFamily> searchArcFamilies(const cv::Mat& bgr)
     }
     dropOutside(bgr.size(), family);
   }
-  families.erase(std::remove_if(families.begin(), families.end(),
-                                [](const ArcFamily& family) { return family.radii.empty(); }),
-                 families.end());
+  families.erase(
+      std::remove_if(families.begin(), families.end(), [](const ArcFamily& family) { return family.radii.empty(); }),
+      families.end());
   return families;
 }
 
