@@ -90,6 +90,10 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
   candidate.profile = profile;
   for (int round = 0; round < MAX_ROUNDS; ++round)
   {
+    if (map.isSpent())
+    {
+      return false;
+    }
     const double reach = profileReach(rings);
     sampleProfile(bgr, rings.family, reach, *profile);
     keepDirections(rings.open, *profile);
