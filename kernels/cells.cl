@@ -5,7 +5,7 @@
 #ifndef OUTDOOR_OMR_CELLS_CL
 #define OUTDOOR_OMR_CELLS_CL
 
-#include "geometry.cl"
+#include "levels.cl"
 
 /** The planes of blocks of 2 x 2 cells, in the order of gateInputs() in haar_features.h. */
 #define BLOCK_PLANES 6
@@ -83,16 +83,18 @@ INLINE void setBlocks(global const short* cells, size_t plane, int cells_across,
  * rows of cells, which are a row of blocks and of the next level's cells.
  *
  * @param logarithm of a cell's mean.
- * @param cells     three planes of cells_down rows of cells_across: b + g + r, r - g, b - g. Up to 32 behind the last
+ * @param cells     of a level after the other: three planes of its rows, b + g + r, r - g, b - g. Up to 32 behind the last
  *                  one of a row may be read before they are set; the blocks that depend on them are padding.
  * @param blocks    BLOCK_PLANES planes of cells_down / 2 rows of 2 * evenBlocks().
  * @param sums      of the next level: three planes of cells_down / 2 rows of cells_across / 2.
  */
 kernel GROUP void cellsOfImage(global const uchar* restrict image, long step, global const short* restrict logarithm,
-                               int cells_across, int cells_down, global short* restrict cells,
+                               global const Level* restrict levels, global short* restrict cells,
                                global short* restrict blocks, global uint* restrict sums)
 {
   const int block_row = get_group_id(0);
+  const int cells_across = levels->cells_across;
+  const int cells_down = levels->cells_down;
   const int blocks_down = cells_down / 2;
   const size_t plane = (size_t)cells_down * cells_across;
   const size_t sum_plane = (size_t)blocks_down * (cells_across / 2);
@@ -139,10 +141,13 @@ kernel GROUP void cellsOfImage(global const uchar* restrict image, long step, gl
 
 /** The same for a further level. @param own the sums of its cells, as the level before gives them. */
 kernel GROUP void cellsOfSums(global const uint* restrict own, int level, global const short* restrict logarithm,
-                              int cells_across, int cells_down, global short* restrict cells,
+                              global const Level* restrict levels, global short* restrict all_cells,
                               global short* restrict blocks, global uint* restrict sums)
 {
   const int block_row = get_group_id(0);
+  const int cells_across = levels[level].cells_across;
+  const int cells_down = levels[level].cells_down;
+  global short* restrict cells = all_cells + levels[level].first_cell;
   const int blocks_down = cells_down / 2;
   const size_t plane = (size_t)cells_down * cells_across;
   const size_t sum_plane = (size_t)blocks_down * (cells_across / 2);

@@ -4,108 +4,114 @@
 #include "cells.cl"
 #include "network.cl"
 
-/** Units of the gate, and windows that are looked at together. */
 #define GATE_UNITS 16
 #define LEAST_BLOCK_CONTRAST 640
 #define LARGEST_INPUT 6.0f
 
-/** 16 blocks side by side in a plane. */
-INLINE int16 sixteen(global const short* at)
+/** Of a block of a window, from its first one. */
+INLINE int offsetOf(int block, int even)
 {
-  return convert_int16(vload16(0, at));
+  return (2 * (block / 4) + block % 2) * even + block % 4 / 2;
 }
 
-INLINE int16 magnitude16(int16 value)
+/** The same block of WINDOWS windows: they lie side by side. */
+INLINE Ints blocksOf(global const short* at)
 {
-  return value > -value ? value : -value;
+  return TO_INTS(LOAD(at));
 }
 
 /**
  * Which windows of a level may show a marker at the first look: every second one of every second row, one group such a
- * row, 16 of them at a time: their blocks lie side by side.
+ * row, WINDOWS of them at a time.
  *
- * @param blocks  as cells.cl gives them; 16 more may be read behind the last one.
+ * @param blocks  as cells.cl gives them; WINDOWS more may be read behind the last one.
  * @param weights bias of the GATE_UNITS units, a row of them for each input, then bias and weights of either output.
  * @param units   0: every window passes.
+ * @param likely  receives the windows that pass, in any order.
+ * @param scores  of all windows: -1.
  */
-kernel GROUP void gateWindows(global const short* restrict blocks, int cells_across, int blocks_down,
+kernel GROUP void gateWindows(global const short* restrict blocks, global const Level* restrict levels, int level,
                               global const float* restrict weights, int units, float least_checkerboard,
-                              float least_target, int looked_across, global uchar* restrict passes)
+                              float least_target, global Lists* lists, global uint* restrict likely,
+                              global float2* restrict scores)
 {
-  const int even = evenBlocks(cells_across);
-  const size_t plane = (size_t)blocks_down * 2 * even;
+  const int even = evenBlocks(levels[level].cells_across);
+  const size_t plane = (size_t)(levels[level].cells_down / 2) * 2 * even;
+  const int windows_across = levels[level].windows_across;
+  const int looked_across = (windows_across + 1) / 2;
   const int row = get_group_id(0);
-  global uchar* restrict out = passes + (size_t)row * looked_across;
-  for (int i = 16 * get_local_id(0); i < looked_across; i += 16 * LANES)
+  const uint first = levels[level].first_window + 2 * row * windows_across;
+  const int rows = min(2, levels[level].windows_down - 2 * row);
+  for (int i = get_local_id(0); i < rows * windows_across; i += LANES)
+  {
+    scores[first + i] = (float2)(-1, -1);
+  }
+  for (int i = WINDOWS * get_local_id(0); i < looked_across; i += WINDOWS * LANES)
   {
     global const short* start = blocks + (size_t)2 * row * 2 * even + i;
-    int16 sum = 0;
-    int16 contrast = 0;
-    for (int y = 0; y < 4; ++y)
+    Ints sum = 0;
+    Ints contrast = 0;
+    for (int block = 0; block < 16; ++block)
     {
-      for (int x = 0; x < 4; ++x)
-      {
-        global const short* at = start + (2 * y + x % 2) * even + x / 2;
-        sum += sixteen(at);
-        contrast += sixteen(at + 3 * plane) + sixteen(at + 4 * plane);
-      }
+      global const short* at = start + offsetOf(block, even);
+      sum += blocksOf(at);
+      contrast += blocksOf(at + 3 * plane) + blocksOf(at + 4 * plane);
     }
-    const int16 mean = sum / 16;
-    int16 between = 0;
-    for (int y = 0; y < 4; ++y)
+    const Ints mean = sum / 16;
+    Ints between = 0;
+    for (int block = 0; block < 16; ++block)
     {
-      for (int x = 0; x < 4; ++x)
-      {
-        between += magnitude16(sixteen(start + (2 * y + x % 2) * even + x / 2) - mean);
-      }
+      const Ints from_mean = blocksOf(start + offsetOf(block, even)) - mean;
+      between += max(from_mean, -from_mean);
     }
     contrast += between / 2;
-    int16 pass = contrast >= LEAST_BLOCK_CONTRAST;
-    if (units > 0 && any(pass))
+    Ints pass = contrast >= LEAST_BLOCK_CONTRAST;
+    if (units > 0 && ANY(pass))
     {
-      const float16 scale = 16 / convert_float16(max(contrast, 1));
-      float16 unit[GATE_UNITS];
+      const Floats scale = 16 / TO_FLOATS(max(contrast, 1));
+      Floats unit[GATE_UNITS];
       for (int u = 0; u < GATE_UNITS; ++u)
       {
         unit[u] = weights[u];
       }
       global const float* weight = weights;
-      for (int y = 0; y < 4; ++y)
+      for (int block = 0; block < 16; ++block)
       {
-        for (int x = 0; x < 4; ++x)
+        global const short* at = start + offsetOf(block, even);
+        for (int k = 0; k < BLOCK_PLANES; ++k)
         {
-          global const short* at = start + (2 * y + x % 2) * even + x / 2;
-          for (int k = 0; k < BLOCK_PLANES; ++k)
-          {
-            const int16 value = sixteen(at + k * plane) - (k == 0 ? mean : 0);
-            const float16 input = clamp(convert_float16(value) * scale, -LARGEST_INPUT, LARGEST_INPUT);
-            weight += GATE_UNITS;
+          const Ints value = blocksOf(at + k * plane) - (k == 0 ? mean : 0);
+          const Floats input = clamp(TO_FLOATS(value) * scale, -LARGEST_INPUT, LARGEST_INPUT);
+          weight += GATE_UNITS;
 #pragma unroll
-            for (int u = 0; u < GATE_UNITS; ++u)
-            {
-              unit[u] += input * weight[u];
-            }
+          for (int u = 0; u < GATE_UNITS; ++u)
+          {
+            unit[u] += input * weight[u];
           }
         }
       }
       weight += GATE_UNITS;
-      float16 checkerboard = weight[0];
-      float16 target = weight[GATE_UNITS + 1];
+      Floats checkerboard = weight[0];
+      Floats target = weight[GATE_UNITS + 1];
       for (int u = 0; u < GATE_UNITS; ++u)
       {
-        const float16 active = activation(unit[u]);
+        const Floats active = activation(unit[u]);
         checkerboard += active * weight[u + 1];
         target += active * weight[GATE_UNITS + u + 2];
       }
       // The outputs are compared before their activation, which rises.
       pass &= checkerboard > least_checkerboard || target > least_target;
     }
-    pass = units > 0 ? pass : 1;
-    int kept[16];
-    vstore16(pass, 0, kept);
-    for (int lane = 0; lane < min(16, looked_across - i); ++lane)
+    IntsOf passes = {units > 0 ? pass : 1};
+    if (ANY(passes.all != 0))
     {
-      out[i + lane] = kept[lane] != 0;
+      for (int lane = 0; lane < min(WINDOWS, looked_across - i); ++lane)
+      {
+        if (passes.of[lane] != 0)
+        {
+          likely[atomic_inc(&lists->likely)] = first + 2 * (i + lane);
+        }
+      }
     }
   }
 }

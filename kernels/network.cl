@@ -2,141 +2,140 @@
 // include/outdoor_omr/marker_network.h, window_scores.h.
 
 #include "haar.cl"
+#include "levels.cl"
 
-#define MAX_HIDDEN 256
+/** Units that are summed together, so that the sums need not wait for each other. */
+#define UNITS 16
 
 /**
  * tanh(x / 2) = 1 - 2 / (1 + e^x). The power is 2^n with the nearest n times a series of 2^f, right to 2e-7: a library's
  * exp() may be a call for each lane, and rint() a dozen instructions. A sum with 1.5 * 2^23 ends in the nearest integer.
  */
-INLINE float16 activation(float16 x)
+INLINE Floats activation(Floats x)
 {
   const float to_integer = 12582912.0f;
-  const float16 y = clamp(x * 1.44269504f, -60.0f, 60.0f);
-  const float16 shifted = y + to_integer;
-  const float16 f = (y - (shifted - to_integer)) * 0.693147181f;
-  float16 series = f * (1.0f / 720) + 1.0f / 120;
+  const Floats y = clamp(x * 1.44269504f, -60.0f, 60.0f);
+  const Floats shifted = y + to_integer;
+  const Floats f = (y - (shifted - to_integer)) * 0.693147181f;
+  Floats series = f * (1.0f / 720) + 1.0f / 120;
   series = f * series + 1.0f / 24;
   series = f * series + 1.0f / 6;
   series = f * series + 0.5f;
   series = f * series + 1.0f;
   series = f * series + 1.0f;
-  return 1 - 2 / (1 + as_float16(as_int16(series) + (as_int16(shifted) << 23)));
+  return 1 - 2 / (1 + AS_FLOATS(AS_INTS(series) + (AS_INTS(shifted) << 23)));
 }
 
-/** @param weights of 16 hidden units at a time a row for each of the INPUTS, then of each output: one a hidden unit, and the
- * bias; both padded to 16. */
-INLINE float2 networkScores(const float* features, global const float* weights, int hidden)
+/** The two scores of windows. @param weights of UNITS hidden units at a time a row for each of the INPUTS, then of each
+ * output: one a hidden unit, and the bias; both padded to UNITS. */
+INLINE void networkScores(const Floats* features, global const float* weights, int hidden, Floats* checkerboard,
+                          Floats* target)
 {
-  float units[MAX_HIDDEN + 16];
-  const int padded = (hidden + 1 + 15) / 16 * 16;
-  for (int unit = 0; unit < padded; ++unit)
+  const int padded = (hidden + UNITS) / UNITS * UNITS;
+  global const float* of_checkerboard = weights + (hidden + UNITS - 1) / UNITS * UNITS * INPUTS;
+  global const float* of_target = of_checkerboard + padded;
+  *checkerboard = of_checkerboard[hidden];
+  *target = of_target[hidden];
+  for (int first = 0; first < hidden; first += UNITS)
   {
-    units[unit] = 0;
-  }
-  const int groups = (hidden + 15) / 16;
-  for (int group = 0; group < groups; ++group)
-  {
-    global const float* of_group = weights + group * INPUTS * 16;
-    float16 sums[4] = {0, 0, 0, 0};  // which need not wait for each other
-    for (int i = 0; i < INPUTS; i += 4)
-    {
+    Floats sums[UNITS];
 #pragma unroll
-      for (int k = 0; k < 4; ++k)
-      {
-        sums[k] += features[i + k] * vload16(i + k, of_group);
-      }
+    for (int unit = 0; unit < UNITS; ++unit)
+    {
+      sums[unit] = 0;
     }
-    vstore16((sums[0] + sums[1]) + (sums[2] + sums[3]), group, units);
+    for (int i = 0; i < INPUTS; ++i)
+    {
+      const Floats feature = features[i];
+#pragma unroll
+      for (int unit = 0; unit < UNITS; ++unit)
+      {
+        sums[unit] += feature * weights[unit];
+      }
+      weights += UNITS;
+    }
+    for (int unit = 0; unit < min(UNITS, hidden - first); ++unit)
+    {
+      const Floats active = activation(sums[unit]);
+      *checkerboard += active * of_checkerboard[first + unit];
+      *target += active * of_target[first + unit];
+    }
   }
-  for (int i = 0; i < padded / 16; ++i)
-  {
-    vstore16(activation(vload16(i, units)), i, units);
-  }
-  units[hidden] = 1;
-  float8 checkerboard = 0;
-  float8 target = 0;
-  global const float* outputs = weights + groups * INPUTS * 16;
-  for (int i = 0; i < padded / 8; ++i)
-  {
-    checkerboard += vload8(i, outputs) * vload8(i, units);
-    target += vload8(i, outputs + padded) * vload8(i, units);
-  }
-  const float4 c = checkerboard.lo + checkerboard.hi;
-  const float4 t = target.lo + target.hi;
-  float16 sums = 0;
-  sums.s0 = c.x + c.y + c.z + c.w;
-  sums.s1 = t.x + t.y + t.z + t.w;
-  return activation(sums).s01;
+  *checkerboard = activation(*checkerboard);
+  *target = activation(*target);
 }
 
-/** The scores of one window; -1 where it has too little contrast. */
-INLINE float2 windowScores(global const short* window, int cells_across, size_t plane, global const uchar* tables,
-                           int crossings, global const float* weights, int hidden)
+/** The places of the windows of a list from the first one on; where it ends, of the last one again. */
+INLINE Places placesOf(global const uint* list, uint first, uint count, global const short* cells,
+                       global const Level* levels)
 {
-  float features[INPUTS];
-  return haarFeatures(window, cells_across, plane, tables, crossings, features)
-             ? networkScores(features, weights, hidden)
-             : (float2)(-1, -1);
+  Places places;
+  for (int i = 0; i < WINDOWS; ++i)
+  {
+    const WindowAt at = windowAt(levels, list[min(first + i, count - 1)]);
+    global const Level* level = levels + at.level;
+    places.across[i] = level->cells_across;
+    places.plane[i] = (size_t)level->cells_across * level->cells_down;
+    places.first[i] = cells + level->first_cell + WINDOW_STRIDE * ((size_t)at.y * level->cells_across + at.x);
+  }
+  return places;
+}
+
+/** Adds the windows beside one to a list, once: those without a score whose score nobody has taken yet. */
+INLINE void follow(global const Level* levels, uint window, global int* scores, global Lists* lists,
+                   global uint* beside)
+{
+  const WindowAt at = windowAt(levels, window);
+  global const Level* level = levels + at.level;
+  for (int y = max(0, at.y - 1); y <= min(level->windows_down - 1, at.y + 1); ++y)
+  {
+    for (int x = max(0, at.x - 1); x <= min(level->windows_across - 1, at.x + 1); ++x)
+    {
+      const uint other = level->first_window + y * level->windows_across + x;
+      if ((x % 2 != 0 || y % 2 != 0) && atomic_xchg(scores + 2 * other, TAKEN) != TAKEN)
+      {
+        beside[atomic_inc(&lists->beside)] = other;
+      }
+    }
+  }
 }
 
 /**
- * The scores of every second window of every second row of a level, one group such a row: checkerboard and target, -1
- * to 1.
+ * The scores of the windows that are likely, or then of those beside one with a score above followed: checkerboard and
+ * target, -1 to 1. A lane takes WINDOWS of them at a time.
  *
- * @param passes of each of them, as gateWindows gives them.
- * @param first  of the level in scores.
+ * @param second whether the second list is looked at.
+ * @param scores -1 of all others.
  */
-kernel GROUP void scoreWindows(global const short* restrict cells, int cells_across, int cells_down,
+kernel GROUP void scoreWindows(global const short* restrict cells, global const Level* restrict levels,
                                global const uchar* restrict tables, int crossings,
-                               global const float* restrict weights, int hidden, global const uchar* restrict passes,
-                               int windows_across, int first, global float2* restrict scores)
+                               global const float* restrict weights, int hidden, float followed, int second,
+                               global const uint* likely, global uint* beside, global Lists* lists,
+                               global float2* scores)
 {
-  const size_t plane = (size_t)cells_down * cells_across;
-  const int row = get_group_id(0);
-  const int looked_across = (windows_across + 1) / 2;
-  global const short* start = cells + (size_t)2 * row * WINDOW_STRIDE * cells_across;
-  global float2* out = scores + first + (size_t)2 * row * windows_across;
-  for (int i = get_local_id(0); i < looked_across; i += LANES)
+  global const uint* list = second != 0 ? beside : likely;
+  const uint count = second != 0 ? lists->beside : lists->likely;
+  for (uint first = WINDOWS * get_global_id(0); first < count; first += WINDOWS * get_global_size(0))
   {
-    out[2 * i] = passes[row * looked_across + i] != 0
-                     ? windowScores(start + 2 * WINDOW_STRIDE * i, cells_across, plane, tables, crossings, weights,
-                                    hidden)
-                     : (float2)(-1, -1);
-  }
-}
-
-/**
- * The scores of the other windows of a level, one group a row: of those beside one that scoreWindows gave a score above
- * followed, whether they pass the gate or not; the rest gets -1.
- */
-kernel GROUP void followWindows(global const short* restrict cells, int cells_across, int cells_down,
-                                global const uchar* restrict tables, int crossings,
-                                global const float* restrict weights, int hidden, float followed, int windows_across,
-                                int windows_down, int first, global float2* scores)
-{
-  const size_t plane = (size_t)cells_down * cells_across;
-  const int row = get_group_id(0);
-  global const short* start = cells + (size_t)row * WINDOW_STRIDE * cells_across;
-  global float2* level = scores + first;
-  for (int i = get_local_id(0); i < windows_across; i += LANES)
-  {
-    if (row % 2 == 0 && i % 2 == 0)
+    Floats features[INPUTS];
+    const Places places = placesOf(list, first, count, cells, levels);
+    const Ints has_contrast = haarFeatures(&places, tables, crossings, features);
+    FloatsOf checkerboard = {-1};
+    FloatsOf target = {-1};
+    if (ANY(has_contrast))
     {
-      continue;
+      networkScores(features, weights, hidden, &checkerboard.all, &target.all);
+      checkerboard.all = has_contrast ? checkerboard.all : (Floats)-1;
+      target.all = has_contrast ? target.all : (Floats)-1;
     }
-    float best = -1;
-    for (int y = row - row % 2; y <= min(windows_down - 1, row + row % 2); y += 2)
+    for (uint i = 0; i < min((uint)WINDOWS, count - first); ++i)
     {
-      for (int x = i - i % 2; x <= min(windows_across - 1, i + i % 2); x += 2)
+      const uint window = list[first + i];
+      scores[window] = (float2)(checkerboard.of[i], target.of[i]);
+      if (second == 0 && max(checkerboard.of[i], target.of[i]) > followed)
       {
-        const float2 beside = level[y * windows_across + x];
-        best = max(best, max(beside.x, beside.y));
+        follow(levels, window, (global int*)scores, lists, beside);
       }
     }
-    level[row * windows_across + i] =
-        best > followed
-            ? windowScores(start + WINDOW_STRIDE * i, cells_across, plane, tables, crossings, weights, hidden)
-            : (float2)(-1, -1);
   }
 }

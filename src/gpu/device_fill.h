@@ -115,6 +115,7 @@ class DeviceFill
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
   void warmUp();
   void reserveWindows();
+  void uploadWindows(const MarkerNetwork& network);
   void findCells(int level);
   void findRuns(const Strips& strips);
   bool sweep(int rounds);

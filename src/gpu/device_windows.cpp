@@ -9,6 +9,9 @@ namespace omr
 {
 namespace
 {
+/** Groups a compute unit that share the listed windows: they take different times. */
+constexpr std::size_t SCORING_GROUPS = 32;
+
 /** What a unit's weighted sum is where it gives a score. */
 float beforeActivation(float score)
 {
@@ -34,24 +37,9 @@ void DeviceFill::reserveWindows()
   windows_->reserve(context_, size_);
 }
 
-void DeviceFill::findCells(int level)
+/** The kernels look all this up; it changes with the network and the image's size. */
+void DeviceFill::uploadWindows(const MarkerNetwork& network)
 {
-  const cv::Size cells = size_ / cellSize(level);
-  const Groups rows = {static_cast<std::size_t>(divideUp(cells.height, 2)), 1};
-  const cl::Buffer& next = *windows_->sums[level % 2];
-  if (level == 0)
-  {
-    launch("cellsOfImage", rows, image_, step_, *windows_->logarithm, cells.width, cells.height, *windows_->cells,
-           *windows_->blocks, next);
-    return;
-  }
-  launch("cellsOfSums", rows, *windows_->sums[1 - level % 2], level, *windows_->logarithm, cells.width, cells.height,
-         *windows_->cells, *windows_->blocks, next);
-}
-
-void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores)
-{
-  images_without_windows_ = 0;
   reserveWindows();
   if (windows_->tables.bytes() == 0)
   {
@@ -66,33 +54,51 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
     upload(context_, queue_, gate.hidden > 0 ? packGate(gate) : std::vector<cl_float>(1), windows_->gate_weights);
     windows_->network = network;
   }
-  const auto crossings = static_cast<cl_int>(haarTables().crossings.size());
-  int first = 0;
-  for (int level = 0; level < HAAR_LEVELS; ++level)
+  upload(context_, queue_, windowLevels(size_), windows_->levels);
+  queue_.enqueueFillBuffer(*windows_->lists, cl_uint(0), 0, sizeof(WindowLists));
+}
+
+void DeviceFill::findCells(int level)
+{
+  const Groups rows = {static_cast<std::size_t>(divideUp(size_.height / cellSize(level), 2)), 1};
+  const cl::Buffer& next = *windows_->sums[level % 2];
+  if (level == 0)
   {
-    const cv::Size grid = windowGrid(size_, level);
-    if (grid.empty())
-    {
-      break;
-    }
-    const cv::Size cells = size_ / cellSize(level);
-    const Groups window_rows = {static_cast<std::size_t>(grid.height), 1};
-    const Groups looked_rows = {static_cast<std::size_t>(divideUp(grid.height, 2)), 1};
+    launch("cellsOfImage", rows, image_, step_, *windows_->logarithm, *windows_->levels, *windows_->cells,
+           *windows_->blocks, next);
+    return;
+  }
+  launch("cellsOfSums", rows, *windows_->sums[1 - level % 2], level, *windows_->logarithm, *windows_->levels,
+         *windows_->cells, *windows_->blocks, next);
+}
+
+void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores)
+{
+  images_without_windows_ = 0;
+  scores.resize(windowCount(size_));
+  if (scores.empty())
+  {
+    return;
+  }
+  uploadWindows(network);
+  const FeedForward& gate = network.gate;
+  for (int level = 0; level < HAAR_LEVELS && !windowGrid(size_, level).empty(); ++level)
+  {
     findCells(level);
-    launch("gateWindows", looked_rows, *windows_->blocks, cells.width, cells.height / 2, *windows_->gate_weights,
-           gate.hidden, beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]),
-           divideUp(grid.width, 2), *windows_->passes);
-    launch("scoreWindows", looked_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
-           *windows_->weights, network.hidden, *windows_->passes, grid.width, first, *windows_->scores);
-    launch("followWindows", window_rows, *windows_->cells, cells.width, cells.height, *windows_->tables, crossings,
-           *windows_->weights, network.hidden, FOLLOWED_SCORE, grid.width, grid.height, first, *windows_->scores);
-    first += grid.area();
+    launch("gateWindows", {static_cast<std::size_t>(divideUp(windowGrid(size_, level).height, 2)), 1},
+           *windows_->blocks, *windows_->levels, level, *windows_->gate_weights, gate.hidden,
+           beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]), *windows_->lists,
+           *windows_->likely, *windows_->scores);
   }
-  scores.resize(first);
-  if (first > 0)
+  const auto crossings = static_cast<cl_int>(haarTables().crossings.size());
+  const Groups groups = {SCORING_GROUPS * static_cast<std::size_t>(compute_units_), 1};
+  for (const cl_int second : {0, 1})
   {
-    queue_.enqueueReadBuffer(*windows_->scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
+    launch("scoreWindows", groups, *windows_->cells, *windows_->levels, *windows_->tables, crossings,
+           *windows_->weights, network.hidden, FOLLOWED_SCORE, second, *windows_->likely, *windows_->beside,
+           *windows_->lists, *windows_->scores);
   }
+  queue_.enqueueReadBuffer(*windows_->scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
   scored_ = last_event_;
 }
 

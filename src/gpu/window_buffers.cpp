@@ -9,7 +9,7 @@ namespace omr
 {
 namespace
 {
-constexpr std::size_t INPUTS = 152;  // HAAR_FEATURES, the bias, and zeros up to a multiple of 8
+constexpr std::size_t INPUTS = HAAR_FEATURES + 1;
 constexpr std::size_t GATE_UNITS = MAX_GATE_UNITS;
 constexpr std::size_t BLOCK_PLANES = 6;
 constexpr std::size_t READ_BEYOND = 32;  // blocks and cells
@@ -18,22 +18,47 @@ static_assert(HAAR_FEATURES == 148, "kernels/haar.cl has the same number");
 static_assert(HAAR_SHIFTS == 40, "kernels/haar.cl has the same number");
 }  // namespace
 
+std::vector<WindowLevel> windowLevels(const cv::Size& size)
+{
+  std::vector<WindowLevel> levels(HAAR_LEVELS);
+  WindowLevel next;
+  for (int i = 0; i < HAAR_LEVELS; ++i)
+  {
+    const cv::Size cells = size / cellSize(i);
+    const cv::Size windows = windowGrid(size, i);
+    levels[i] = {next.first_cell, cells.width, cells.height, next.first_window, windows.width, windows.height};
+    next.first_cell += static_cast<cl_uint>(3 * static_cast<std::size_t>(cells.width) * cells.height);
+    next.first_window += static_cast<cl_uint>(windows.area());
+  }
+  return levels;
+}
+
 void WindowBuffers::reserve(const cl::Context& context, const cv::Size& size)
 {
   const std::size_t width = size.width;
   const std::size_t height = size.height;
+  const std::size_t windows = windowCount(size);
+  levels.reserve(context, HAAR_LEVELS, sizeof(WindowLevel));
   sums[0].reserve(context, height / 4 * (width / 4) * 3 + 1, sizeof(cl_uint));
   sums[1].reserve(context, height / 8 * (width / 8) * 3 + 1, sizeof(cl_uint));
-  cells.reserve(context, height / 2 * (width / 2) * 3 + READ_BEYOND, sizeof(cl_short));
+  cells.reserve(context, 4 * (height / 2 * (width / 2)) + READ_BEYOND,
+                sizeof(cl_short));  // 3 * 4 / 3 of the first level
   blocks.reserve(context, height / 4 * (width / 4 + 16) * BLOCK_PLANES + READ_BEYOND, sizeof(cl_short));
-  passes.reserve(context, windowGrid(size, 0).area() + 1, 1);
-  scores.reserve(context, windowCount(size), sizeof(MarkerScores));
+  lists.reserve(context, 1, sizeof(WindowLists));
+  likely.reserve(context, windows + 1, sizeof(cl_uint));
+  beside.reserve(context, windows + 1, sizeof(cl_uint));
+  scores.reserve(context, windows, sizeof(MarkerScores));
 }
 
 std::size_t WindowBuffers::bytes() const
 {
-  return sums[0].bytes() + sums[1].bytes() + cells.bytes() + logarithm.bytes() + tables.bytes() + weights.bytes() +
-         gate_weights.bytes() + blocks.bytes() + passes.bytes() + scores.bytes();
+  std::size_t sum = 0;
+  for (const GrowingBuffer* buffer : {&levels, sums.data(), sums.data() + 1, &cells, &logarithm, &tables, &weights,
+                                      &gate_weights, &blocks, &lists, &likely, &beside, &scores})
+  {
+    sum += buffer->bytes();
+  }
+  return sum;
 }
 
 std::vector<cl_uchar> packTables()
