@@ -176,10 +176,30 @@ TEST(Candidates, aMarkerInItsPlaceReadsACandidate)
   candidates[2].box = {20, 150, 40, 40};
   omr::Target target;
   target.rings.emplace_back(cv::Point2f(40, 170), cv::Size2f(60, 60), 0);
-  omr::markRead(candidates, {boardAt({104, 98, 44, 40}), boardAt({240, 130, 60, 60})}, {target});
+  omr::markRead({boardAt({104, 98, 44, 40}), boardAt({240, 130, 60, 60})}, {target}, candidates);
   EXPECT_TRUE(candidates[0].read);
   EXPECT_FALSE(candidates[1].read) << "only a corner of it is covered";
   EXPECT_TRUE(candidates[2].read);
+}
+
+TEST(Candidates, everyMarkerThatIsReadIsCoveredByOne)
+{
+  std::vector<Candidate> candidates(2);
+  candidates[0].box = {100, 100, 40, 40};  // parts of the board
+  candidates[1].box = {150, 100, 40, 40};
+  omr::Target target;
+  target.rings.emplace_back(cv::Point2f(40, 170), cv::Size2f(60, 60), 0);
+  const cv::Rect board(95, 90, 120, 80);
+  omr::markRead({boardAt(board)}, {target}, candidates);
+  ASSERT_EQ(3U, candidates.size());
+  EXPECT_GE((candidates[0].box & board).area(), .98 * board.area());
+  EXPECT_EQ(cv::Rect(150, 100, 40, 40), candidates[1].box) << "once is enough";
+  EXPECT_TRUE(candidates[1].read);
+  EXPECT_TRUE(candidates[2].read);
+  EXPECT_EQ(MarkerKind::target, candidates[2].kind);
+  EXPECT_TRUE(candidates[2].box.contains({12, 142}));
+  omr::markRead({boardAt(board)}, {target}, candidates);
+  EXPECT_EQ(3U, candidates.size());
 }
 
 int main(int argc, char** argv)

@@ -16,7 +16,7 @@ struct Candidate
 {
   cv::Rect box;  ///< covers most of the marker [px]
   MarkerKind kind = MarkerKind::checkerboard;
-  float score = -1;    ///< largest of its windows, threshold of the network to 1
+  float score = -1;    ///< largest of its windows, threshold of the network to 1; -1: read, though no window shows it
   int cell = 0;        ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
   int windows = 0;     ///< number of its windows
   float evidence = 0;  ///< log of the odds that a marker is there, by its windows
@@ -47,9 +47,10 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
 /** Removes the candidates that were not read and whose windows give less evidence than the network asks for. */
 void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std::vector<Candidate>& candidates);
 
-/** Marks the candidates that show one of the markers as read. */
-void markRead(std::vector<Candidate>& candidates, const std::vector<Checkerboard>& checkerboards,
-              const std::vector<Target>& targets);
+/** Marks the candidates that show one of the markers as read. Each marker is covered by one then: windows see no more
+ * than a part of many a large or shadowed marker that is read, and nothing of some. */
+void markRead(const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
+              std::vector<Candidate>& candidates);
 
 }  // namespace omr
 

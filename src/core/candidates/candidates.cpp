@@ -141,6 +141,29 @@ bool shows(const Candidate& candidate, const cv::Rect& marker)
   const double shared = (candidate.box & marker).area();
   return shared > READ * std::min(candidate.box.area(), marker.area());
 }
+
+/** Marks what shows a marker; the first of it covers the marker then, or else a candidate of its own does. */
+void markRead(const cv::Rect& marker, MarkerKind kind, std::vector<Candidate>& candidates)
+{
+  bool covered = false;
+  for (Candidate& candidate : candidates)
+  {
+    if (shows(candidate, marker))
+    {
+      candidate.read = true;
+      candidate.box |= covered ? cv::Rect() : marker;
+      covered = true;
+    }
+  }
+  if (!covered)
+  {
+    Candidate own;
+    own.box = marker;
+    own.kind = kind;
+    own.read = true;
+    candidates.push_back(own);
+  }
+}
 }  // namespace
 
 std::array<float, BOX_FEATURES> boxFeatures(const Candidate& candidate)
@@ -208,20 +231,17 @@ void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), doubtful), candidates.end());
 }
 
-void markRead(std::vector<Candidate>& candidates, const std::vector<Checkerboard>& checkerboards,
-              const std::vector<Target>& targets)
+void markRead(const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
+              std::vector<Candidate>& candidates)
 {
-  for (Candidate& candidate : candidates)
+  for (const Checkerboard& board : checkerboards)
   {
-    for (const Checkerboard& board : checkerboards)
-    {
-      const std::vector<cv::Point2f> corners(board.corners.begin(), board.corners.end());
-      candidate.read = candidate.read || shows(candidate, cv::boundingRect(corners));
-    }
-    for (const Target& target : targets)
-    {
-      candidate.read = candidate.read || shows(candidate, target.rings.back().boundingRect());
-    }
+    const std::vector<cv::Point2f> corners(board.corners.begin(), board.corners.end());
+    markRead(cv::boundingRect(corners), MarkerKind::checkerboard, candidates);
+  }
+  for (const Target& target : targets)
+  {
+    markRead(target.rings.back().boundingRect(), MarkerKind::target, candidates);
   }
 }
 
