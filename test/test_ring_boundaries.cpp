@@ -2,16 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "render_target.h"
 
 using omr::Boundary;
 
 namespace
 {
-/** Boundaries of a scene whose family is known. */
-std::vector<Boundary> boundariesOf(const TargetScene& scene, const std::vector<double>& known = {})
+/** Boundaries in the image of a scene whose family is known. */
+std::vector<Boundary> boundariesIn(const cv::Mat& image, const TargetScene& scene,
+                                   const std::vector<double>& known = {})
 {
-  const cv::Mat image = renderTarget(scene);
   omr::RingFamily family;
   family.center = projectedCenter(scene);
   const double reach = scene.radii.back() * 1.5;
@@ -21,6 +23,43 @@ std::vector<Boundary> boundariesOf(const TargetScene& scene, const std::vector<d
   std::vector<omr::RadialEdgel> edgels;
   omr::collectRadialEdgels(map, family, reach, .9, edgels);
   return omr::findBoundaries(profile, omr::AngularSupport(edgels, reach), known);
+}
+
+std::vector<Boundary> boundariesOf(const TargetScene& scene, const std::vector<double>& known = {})
+{
+  return boundariesIn(renderTarget(scene), scene, known);
+}
+
+/** The boundaries where the ground has the colour of the outermost ring in a share of the directions. */
+std::size_t countOnAlikeGround(const TargetScene& scene, double share)
+{
+  cv::Mat image = renderTarget(scene);
+  const cv::Point2d center = projectedCenter(scene);
+  const double middle = .5 * (scene.radii[scene.radii.size() - 2] + scene.radii.back());
+  const cv::Vec3b color = image.at<cv::Vec3b>(cv::Point2d(center.x + middle, center.y));
+  for (int y = 0; y < image.rows; ++y)
+  {
+    for (int x = 0; x < image.cols; ++x)
+    {
+      const cv::Point2d q = cv::Point2d(x, y) - center;
+      if (cv::norm(q) > middle && std::abs(std::atan2(q.y, q.x)) < CV_PI * share)
+      {
+        image.at<cv::Vec3b>(y, x) = color;
+      }
+    }
+  }
+  return boundariesIn(image, scene).size();
+}
+
+/** Three rings without a sheet, the outermost green. */
+TargetScene greenOnGround(const std::vector<double>& radii, const cv::Vec3d& ground)
+{
+  TargetScene scene;
+  scene.colors = "RWG";
+  scene.radii = radii;
+  scene.sheet_half_side = 0;
+  scene.ground = ground;
+  return scene;
 }
 
 void expectRadii(const TargetScene& scene)
@@ -53,6 +92,28 @@ TEST(RingBoundaries, aShadowsEdgeAndTheSheetsAreNone)
   scene.shadow = .25;
   scene.sheet_half_side = 120;
   expectRadii(scene);
+}
+
+TEST(RingBoundaries, theEdgeOfASmallSheetIsNone)
+{
+  TargetScene scene;
+  scene.radii = {7, 14, 21, 28, 35};
+  for (const double half_side : {38., 42., 46.})
+  {
+    scene.sheet_half_side = half_side;
+    expectRadii(scene);
+  }
+}
+
+TEST(RingBoundaries, groundMayResembleTheOutermostRingInPlaces)
+{
+  EXPECT_EQ(3U, countOnAlikeGround(greenOnGround({10, 20, 30}, {.3, .3, .32}), .45));
+  EXPECT_EQ(2U, countOnAlikeGround(greenOnGround({10, 20, 30}, {.3, .3, .32}), .7));
+}
+
+TEST(RingBoundaries, aNarrowFaintRingNeedsEdgesInMostDirections)
+{
+  EXPECT_EQ(3U, countOnAlikeGround(greenOnGround({15, 30, 35}, {.1, .17, .06}), .35));
 }
 
 TEST(RingBoundaries, whiteOnWhiteIsNone)

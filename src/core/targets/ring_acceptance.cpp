@@ -121,14 +121,13 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   {
     return isClearWhereOpen(candidate);
   }
+  const bool fits_closely = many ? fits_well : rings.rms < .12 + .0006 * radius;
   if (candidate.visible < MOSTLY_VISIBLE)
   {
-    // Half-hidden targets that fit worse are off by a tenth of a ring and more.
-    return candidate.visible > LEAST_VISIBLE && fits_well && candidate.evidence > (many ? .74 : .86);
+    // Half-hidden targets that fit worse are off by a tenth of a ring and more: what bends looks hidden, too.
+    return candidate.visible > LEAST_VISIBLE && fits_closely && candidate.evidence > (many ? .74 : .86);
   }
-  const bool fits_closely = rings.rms < .12 + .0006 * radius;
-  return ((many ? fits_well : fits_closely) && candidate.evidence > .7) ||
-         (fits && candidate.evidence > (many ? .74 : .8));
+  return (fits_closely && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
 }
 
 bool maySuffice(AngleBins open)

@@ -22,6 +22,9 @@ struct Boundary
   bool shown = true;        ///< false: assumed where equal rings would have one
 };
 
+/** How far from its boundary an edge may be [px]. */
+double edgeTolerance(double radius);
+
 /** Their radii [px]. */
 std::vector<double> radiiOf(const std::vector<Boundary>& boundaries);
 
