@@ -8,6 +8,7 @@
 #include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/settings.h"
 #include "render_target.h"
+#include "targets/ring_growth.h"
 
 namespace
 {
@@ -45,6 +46,24 @@ cv::Mat clutter(const cv::Size& size)
 
 /** One seed's growth may begin before the looks are spent. */
 constexpr double ONE_GROWTH = 250000;
+/** Concentric polygons, black and white, the outermost with this radius around the image's middle. */
+cv::Mat polygons(int corners, double radius)
+{
+  cv::Mat image(500, 500, CV_8UC3, cv::Scalar::all(230));
+  for (int ring = 4; ring > 0; --ring)
+  {
+    std::vector<cv::Point> outline;
+    for (int i = 0; i < corners; ++i)
+    {
+      const double angle = 2 * CV_PI * i / corners;
+      outline.push_back(cv::Point(250, 250) +
+                        cv::Point(radius * ring / 4 * cv::Point2d(std::cos(angle), std::sin(angle))));
+    }
+    cv::fillConvexPoly(image, outline, cv::Scalar::all(ring % 2 == 0 ? 30 : 230), cv::LINE_AA);
+  }
+  return image;
+}
+
 }  // namespace
 
 TEST(RingSearch, clutterTakesNoMoreThanTheAllowedLooks)
@@ -154,6 +173,18 @@ TEST(RingSearch, anEmptyPictureTakesNoLooks)
   omr::EdgelMap map(image);
   EXPECT_TRUE(omr::findRingCandidates(map, image, regionsOf(image), {}, {}, 3).empty());
   EXPECT_LT(map.looks(), 10000);
+}
+
+TEST(RingGrowth, endsWherePolygonsFitWorseThanCircles)
+{
+  for (const bool is_round : {true, false})
+  {
+    omr::EdgelMap map(polygons(is_round ? 200 : 9, 200));
+    omr::Rings rings;
+    rings.family.center = {250, 250};
+    rings.radii = {is_round ? 50. : 49.};
+    EXPECT_EQ(is_round, omr::growRings(map, 120, rings)) << rings.rms;
+  }
 }
 
 int main(int argc, char** argv)

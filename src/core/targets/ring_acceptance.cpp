@@ -137,7 +137,7 @@ bool maySuffice(AngleBins open)
 
 bool showsEnough(const RingCandidate& candidate)
 {
-  return turnsSeen(candidate.boundaries) > FIRST_TURNS;
+  return candidate.boundaries.size() >= 3 && turnsSeen(candidate.boundaries) > FIRST_TURNS;
 }
 
 }  // namespace omr

@@ -100,7 +100,7 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
     collectRadialEdgels(map, rings.family, reach, .92, edgels);
     keepDirections(rings.open, edgels);
     candidate.boundaries = findBoundaries(*profile, AngularSupport(edgels, reach), rings.radii);
-    if (candidate.boundaries.size() < 2)
+    if (candidate.boundaries.size() < 2 || (~rings.open != 0 && !showsEnough(candidate)))
     {
       return false;
     }
@@ -204,8 +204,7 @@ void tryOpenDirections(EdgelMap& map, const cv::Mat& bgr, const Rings& start, Ri
       break;
     }
     const double seen = share(open.rings.open);
-    if (seen < LEAST_OPEN || seen > MOST_OPEN || !settle(own, bgr, open, edgels) ||
-        open.boundaries.size() < std::size_t{OPEN_RINGS} || !showsEnough(open))
+    if (seen < LEAST_OPEN || seen > MOST_OPEN || !settle(own, bgr, open, edgels))
     {
       return;
     }
