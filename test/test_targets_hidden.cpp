@@ -103,10 +103,20 @@ TEST(HiddenTargets, sidesOfSpreadDirectionsAndOfHalf)
 
 TEST(HiddenTargets, tooFewOrOneSidedDirectionsAreGivenUpEarly)
 {
-  EXPECT_TRUE(omr::maySuffice(~AngleBins{0}));
-  EXPECT_TRUE(omr::maySuffice(0x00FFF00FFF00FFF0));  // 36 of 64, gaps of 8
-  EXPECT_FALSE(omr::maySuffice(0x00000000FFFFFFFF)) << "half a turn";
-  EXPECT_FALSE(omr::maySuffice(0x1111111111111111)) << "a quarter of them";
+  const auto may_suffice = [](AngleBins open, double rms, double evidence) {
+    omr::RingCandidate candidate;
+    candidate.rings.radii = {20, 40, 60};
+    candidate.rings.open = open;
+    candidate.rings.rms = rms;
+    candidate.evidence = evidence;
+    return omr::maySuffice(candidate);
+  };
+  EXPECT_TRUE(may_suffice(~AngleBins{0}, .1, .7));
+  EXPECT_TRUE(may_suffice(0x00FFF00FFF00FFF0, .1, .7));  // 36 of 64, gaps of 8
+  EXPECT_FALSE(may_suffice(0x00000000FFFFFFFF, .1, .7)) << "half a turn";
+  EXPECT_FALSE(may_suffice(0x1111111111111111, .1, .7)) << "a quarter of them";
+  EXPECT_FALSE(may_suffice(~AngleBins{0}, .4, .7)) << "fits badly and is not clear";
+  EXPECT_TRUE(may_suffice(~AngleBins{0}, .4, .85)) << "may be bent";
 }
 
 TEST(HiddenTargets, ringsThatShowTooLittleAreGivenUpEarly)

@@ -25,6 +25,7 @@ constexpr double BAR_AGREEMENT = .85;  // most
 constexpr double OPEN_VISIBLE = .42;  // of the directions
 constexpr double OPEN_RMS = .08;      // [px]
 constexpr double OPEN_RELATIVE_RMS = .0015;
+constexpr double BENT_EVIDENCE = .8;    // of what a bend may make fit so: it was .84 and .92
 constexpr double OPEN_ONE_SIDED = .56;  // most: half a turn has .64
 constexpr double OPEN_GAP = .38;        // most, of a turn
 constexpr double MORE_TURNS = 2;        // of more than MANY_RINGS
@@ -68,13 +69,18 @@ double turnsSeen(const std::vector<Boundary>& boundaries)
   return turns;
 }
 
+double largestOpenRms(const Rings& rings)
+{
+  return OPEN_RMS + OPEN_RELATIVE_RMS * rings.radii.back();
+}
+
 /** Whether what is seen of rings that are hidden in many directions is clear, and seen on more sides than an arch is.
  */
 bool isClearWhereOpen(const RingCandidate& candidate)
 {
   const double radius = candidate.rings.radii.back();
   const double rms = candidate.rings.rms;
-  const double most = OPEN_RMS + OPEN_RELATIVE_RMS * radius;
+  const double most = largestOpenRms(candidate.rings);
   const AngleBins visible = visibleDirections(candidate.boundaries);
   const double one_sided = onesidedness(visible);
   const double turns = turnsSeen(candidate.boundaries);
@@ -130,9 +136,11 @@ bool isTarget(const RingCandidate& candidate, int min_rings)
   return (fits_closely && candidate.evidence > .7) || (fits && candidate.evidence > (many ? .74 : .8));
 }
 
-bool maySuffice(AngleBins open)
+bool maySuffice(const RingCandidate& candidate)
 {
-  return share(open) >= OPEN_VISIBLE && widestGap(open) <= OPEN_GAP;
+  const Rings& rings = candidate.rings;
+  return share(rings.open) >= OPEN_VISIBLE && widestGap(rings.open) <= OPEN_GAP &&
+         (rings.rms < largestOpenRms(rings) || candidate.evidence > BENT_EVIDENCE);
 }
 
 bool showsEnough(const RingCandidate& candidate)

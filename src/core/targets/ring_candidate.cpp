@@ -36,6 +36,7 @@ constexpr double BENT_LOSS = .02;     // of evidence x visible share, at most
 // Of rings that something hides in the other directions.
 constexpr int OPEN_RINGS = 3;
 constexpr int OPEN_ROUNDS = 3;
+constexpr int OPEN_SETTLING = 2;  // rounds, after each of which the directions are looked at anew
 constexpr double LEAST_OPEN = .3;
 constexpr double MOST_OPEN = .9;
 
@@ -88,7 +89,8 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
   Rings& rings = candidate.rings;
   const auto profile = std::make_shared<RingProfile>();
   candidate.profile = profile;
-  for (int round = 0; round < MAX_ROUNDS; ++round)
+  const int rounds = ~rings.open != 0 ? OPEN_SETTLING : MAX_ROUNDS;
+  for (int round = 0; round < rounds; ++round)
   {
     if (map.isSpent())
     {
@@ -210,7 +212,7 @@ void tryOpenDirections(EdgelMap& map, const cv::Mat& bgr, const Rings& start, Ri
     }
   }
   // A third of those that come so far end here: 12 % of the time that open directions take.
-  if (maySuffice(open.rings.open) && completeOpen(own, bgr, open) && isTarget(open, OPEN_RINGS))
+  if (maySuffice(open) && completeOpen(own, bgr, open) && isTarget(open, OPEN_RINGS))
   {
     candidate = std::move(open);
   }

@@ -50,8 +50,8 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, 
 /** Whether the evidence is such as clutter does not give. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
 
-/** Whether isTarget() may be true of rings that are looked at in some directions only. */
-bool maySuffice(AngleBins open);
+/** Whether isTarget() may be true of rings that were settled in some directions only. */
+bool maySuffice(const RingCandidate& candidate);
 
 /** Whether it may become true of them, as what is seen so far tells. */
 bool showsEnough(const RingCandidate& candidate);

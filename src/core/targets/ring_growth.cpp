@@ -30,6 +30,7 @@ constexpr double LARGEST_RELATIVE_RMS = .06;  // more, relative to its radius: p
 // that do not is spent with more.
 constexpr double GROWN_RMS = .5;             // [px]
 constexpr double GROWN_RELATIVE_RMS = .002;  // more, relative to the radius
+constexpr double ROUGH_SLACK = 1.2;          // times that, of a family from a single circle
 constexpr double BENT_GATE = .1;             // of the outermost boundary: a bend moves it so far off a circle
 // RMS of a bend worth a further look, relative to the plane's: 107 of 108 bends that pay have less, and 59 of 132
 // others.
@@ -235,7 +236,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
     }
     const double gate = rough ? std::max(1.5, .04 * next.radii.back()) : std::max(1., .015 * next.radii.back());
     if (!refineWith(edgels, gate, true, COARSE_POINTS, next) ||
-        next.rms > (rough ? 1.5 : 1) * (GROWN_RMS + GROWN_RELATIVE_RMS * next.radii.back()))
+        next.rms > (rough ? ROUGH_SLACK : 1) * (GROWN_RMS + GROWN_RELATIVE_RMS * next.radii.back()))
     {
       return false;
     }
