@@ -8,6 +8,35 @@
 #define LEAST_BLOCK_CONTRAST 640
 #define LARGEST_INPUT 6.0f
 
+/** Of four rows the sum of the 24 differences of neighbours in the left or the right half, the smaller one. */
+INLINE ushort contrastOfHalves(global const short* first, int cells_across)
+{
+  short8 rows[4];
+  for (int y = 0; y < 4; ++y)
+  {
+    rows[y] = vload8(0, first + (size_t)y * cells_across);
+  }
+  ushort8 sum = 0;
+  for (int y = 0; y < 4; ++y)
+  {
+    const short8 right = rows[y].s12335677;
+    sum += as_ushort8(max(rows[y], right) - min(rows[y], right));
+  }
+  for (int y = 0; y < 3; ++y)
+  {
+    sum += as_ushort8(max(rows[y], rows[y + 1]) - min(rows[y], rows[y + 1]));
+  }
+  return min((ushort)(sum.s0 + sum.s1 + sum.s2 + sum.s3), (ushort)(sum.s4 + sum.s5 + sum.s6 + sum.s7));
+}
+
+/** Whether a window has the contrast that its features need: half of what passes has not. */
+INLINE bool hasContrast(global const short* first, int cells_across)
+{
+  const ushort upper = contrastOfHalves(first, cells_across);
+  const ushort lower = contrastOfHalves(first + (size_t)4 * cells_across, cells_across);
+  return min(upper, lower) >= LEAST_CONTRAST * 24;
+}
+
 /** Of a block of a window, from its first one. */
 INLINE int offsetOf(int block, int even)
 {
@@ -27,10 +56,11 @@ INLINE Ints blocksOf(global const short* at)
  * @param blocks  as cells.cl gives them; WINDOWS more may be read behind the last one.
  * @param weights bias of the GATE_UNITS units, a row of them for each input, then bias and weights of either output.
  * @param units   0: every window passes.
- * @param likely  receives the windows that pass, in any order.
+ * @param likely  receives the windows that pass and have contrast, in any order.
  * @param scores  of all windows: -1.
  */
-kernel GROUP void gateWindows(global const short* restrict blocks, global const Level* restrict levels, int level,
+kernel GROUP void gateWindows(global const short* restrict cells, global const short* restrict blocks,
+                              global const Level* restrict levels, int level,
                               global const float* restrict weights, int units, float least_checkerboard,
                               float least_target, global Lists* lists, global uint* restrict likely,
                               global float2* restrict scores)
@@ -41,6 +71,8 @@ kernel GROUP void gateWindows(global const short* restrict blocks, global const 
   const int looked_across = (windows_across + 1) / 2;
   const int row = get_group_id(0);
   const uint first = levels[level].first_window + 2 * row * windows_across;
+  global const short* of_row =
+      cells + levels[level].first_cell + (size_t)row * 2 * WINDOW_STRIDE * levels[level].cells_across;
   const int rows = min(2, levels[level].windows_down - 2 * row);
   for (int i = get_local_id(0); i < rows * windows_across; i += LANES)
   {
@@ -107,7 +139,8 @@ kernel GROUP void gateWindows(global const short* restrict blocks, global const 
     {
       for (int lane = 0; lane < min(WINDOWS, looked_across - i); ++lane)
       {
-        if (passes.of[lane] != 0)
+        if (passes.of[lane] != 0 &&
+            hasContrast(of_row + (i + lane) * 2 * WINDOW_STRIDE, levels[level].cells_across))
         {
           likely[atomic_inc(&lists->likely)] = first + 2 * (i + lane);
         }

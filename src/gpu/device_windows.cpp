@@ -85,7 +85,7 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
   for (int level = 0; level < HAAR_LEVELS && !windowGrid(size_, level).empty(); ++level)
   {
     findCells(level);
-    launch("gateWindows", {static_cast<std::size_t>(divideUp(windowGrid(size_, level).height, 2)), 1},
+    launch("gateWindows", {static_cast<std::size_t>(divideUp(windowGrid(size_, level).height, 2)), 1}, *windows_->cells,
            *windows_->blocks, *windows_->levels, level, *windows_->gate_weights, gate.hidden,
            beforeActivation(gate.thresholds[0]), beforeActivation(gate.thresholds[1]), *windows_->lists,
            *windows_->likely, *windows_->scores);
