@@ -62,7 +62,7 @@ INLINE void setBlocks(global const short* cells, size_t plane, int cells_across,
   const int even = evenBlocks(cells_across);
   const size_t block_plane = (size_t)blocks_down * 2 * even;
   global short* out = blocks + (size_t)block_row * 2 * even + first / 4;
-  for (int i = 0; i < count; i += 32)
+  for (int i = 0; i + 1 < count; i += 32)
   {
     global const short* upper = cells + (size_t)2 * block_row * cells_across + first + i;
     global const short* lower = upper + cells_across;
