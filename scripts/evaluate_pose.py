@@ -33,8 +33,9 @@ CHI_SQUARE_6 = 12.592  # of six degrees of freedom; 95 % stay below
 FLIP = 5  # [degrees]
 OCCLUDED_SHARE = .3
 NOISE = 12  # [grey levels]
-# What the detector leaves of a corner before it draws any to the others, and of a centre, on pictures as they are [px].
-CORNER_SIGMA, CENTER_SIGMA = .0145, .05
+# What the detector leaves of a corner before it draws any to the others, and of the centre of a target's outermost ring,
+# on pictures as they are [px].
+CORNER_SIGMA, CENTER_SIGMA = .0145, .015
 
 
 def write_parts(path, picture):

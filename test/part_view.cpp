@@ -1,6 +1,8 @@
 #include "part_view.h"
 
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace omr
 {
@@ -48,6 +50,25 @@ PartCheckerboard flatBoard(int rows, int cols, double square)
   return board;
 }
 
+std::vector<cv::RotatedRect> ringsOf(const PartTarget& target, const cv::Affine3d& camera_part, const Camera& camera)
+{
+  constexpr int POINTS = 100;
+  std::vector<cv::RotatedRect> rings;
+  for (std::size_t ring = 1; ring <= target.colors.size(); ++ring)
+  {
+    std::vector<cv::Point3d> circle;
+    for (int i = 0; i < POINTS; ++i)
+    {
+      const double angle = 2 * CV_PI * i / POINTS;
+      const cv::Point3d ray(std::cos(angle), std::sin(angle), 0);
+      circle.push_back(camera_part * (target.center + ray * (target.ring * static_cast<double>(ring))));
+    }
+    const std::vector<cv::Point2d> pixels = camera.project(circle);
+    rings.push_back(cv::fitEllipse(std::vector<cv::Point2f>(pixels.begin(), pixels.end())));
+  }
+  return rings;
+}
+
 PartView::PartView(const Camera& camera, double noise_px, std::uint64_t seed)
     : camera_(camera), noise_px_(noise_px), random_(seed)
 {
@@ -93,6 +114,12 @@ void PartView::add(const PartTarget& target, const cv::Affine3d& camera_part, co
   Target seen;
   seen.colors = colors.empty() ? target.colors : colors;
   seen.center = see(target.center, camera_part);
+  seen.rings = ringsOf(target, camera_part, camera_);
+  const cv::Point2d noise = seen.center - camera_.project({camera_part * target.center}).front();
+  for (cv::RotatedRect& ring : seen.rings)
+  {
+    ring.center += cv::Point2f(noise);
+  }
   targets.push_back(seen);
 }
 

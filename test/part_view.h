@@ -25,6 +25,9 @@ cv::Affine3d poseAt(double x, double y, double z, double tilt_x = 0, double tilt
 /** A flat board in the middle of its part, 7 x 9 squares of 40 mm. */
 PartCheckerboard flatBoard(int rows = 7, int cols = 9, double square = 0.04);
 
+/** The ellipses that the rings of a target are seen as, which lies in the part's plane z = 0 or beside it. */
+std::vector<cv::RotatedRect> ringsOf(const PartTarget& target, const cv::Affine3d& camera_part, const Camera& camera);
+
 /** Markers as a detector sees them, with normal noise on every coordinate. */
 class PartView
 {

@@ -188,11 +188,25 @@ TEST_F(Locate, targetThatIsOffDoesNotBendThePose)
 {
   PartView view(camera_);
   view.add(plate(), pose_);
-  view.targets[0].center += cv::Point2d(4, -3);  // 6 mm on the plate
+  const cv::Point2d off(4, -3);  // 6 mm on the plate
+  view.targets[0].center += off;
+  view.targets[0].rings.back().center += cv::Point2f(off);
   const std::vector<Sighting> sightings = locate(view, {plate()});
   expectCertain(sightings, "plate", pose_);
   EXPECT_FALSE(sightings[0].candidates[0].pose.used[48]);
   EXPECT_TRUE(sightings[0].candidates[0].pose.used[49]);
+}
+
+// The centre is extrapolated from the rings, and at 6 m up to 0.2 px off; the outermost ring is 0.015 px.
+TEST_F(Locate, targetIsWhereItsOutermostRingIs)
+{
+  PartView view(camera_, 0.01);
+  view.add(plate(), pose_);
+  view.targets[0].center += cv::Point2d(0.4, -0.4);
+  const std::vector<Sighting> sightings = locate(view, {plate()});
+  expectCertain(sightings, "plate", pose_);
+  const std::vector<bool>& used = sightings[0].candidates[0].pose.used;
+  EXPECT_EQ(std::count(used.begin(), used.end(), true), 6 * 8 + 2);
 }
 
 TEST_F(Locate, otherBoardsAreNothing)

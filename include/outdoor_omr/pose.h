@@ -15,6 +15,10 @@ struct PointPair
   cv::Point3d point;  ///< in the frame of the part [m]
   cv::Point2d pixel;
   double sigma = 1;  ///< standard deviation of the pixel, each coordinate [px]; only ratios matter with many points
+
+  /** Not 0: the pixel is the centre of the ellipse that is the image of a circle about the point, which is not the
+   * image of the point itself. Axis of the circle, as long as its radius, in the frame of the part [m]. */
+  cv::Vec3d circle{0, 0, 0};
 };
 
 /** Where a part is. */

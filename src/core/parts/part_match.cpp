@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "marker_pose.h"
+#include "reprojection.h"
+#include "target_pair.h"
 
 namespace omr
 {
@@ -29,10 +31,9 @@ struct Found
   double tolerance = 0;  // [px]
 };
 
-/** Pixel of a point of the part; none if it lies behind the camera. */
-std::optional<cv::Point2d> predict(const cv::Affine3d& camera_part, const cv::Point3d& point, const Camera& camera)
+/** Pixel of a point in the camera's frame; none if it lies behind the camera. */
+std::optional<cv::Point2d> predict(const cv::Point3d& seen, const Camera& camera)
 {
-  const cv::Point3d seen = camera_part * point;
   if (!(seen.z > 0))
   {
     return std::nullopt;
@@ -105,7 +106,7 @@ void findTargets(const Part& part, const cv::Affine3d& camera_part, const SeenMa
 {
   for (const PartTarget& target : part.targets)
   {
-    const std::optional<cv::Point2d> pixel = predict(camera_part, target.center, camera);
+    const std::optional<cv::Point2d> pixel = predict(camera_part * target.center, camera);
     if (!pixel)
     {
       continue;
@@ -123,7 +124,7 @@ void findTargets(const Part& part, const cv::Affine3d& camera_part, const SeenMa
     {
       found.push_back({false,
                        index,
-                       {{target.center, seen.targets[index].center, TARGET_SIGMA}},
+                       {targetPair(part, target, seen.targets[index], camera)},
                        std::max(MIN_FIT, TARGET_FIT * radius)});
     }
   }
@@ -216,7 +217,7 @@ bool fits(const Found& marker, const cv::Affine3d& camera_part, const Camera& ca
   double sum = 0;
   for (const PointPair& pair : marker.pairs)
   {
-    const std::optional<cv::Point2d> pixel = predict(camera_part, pair.point, camera);
+    const std::optional<cv::Point2d> pixel = predict(seenPoint(camera_part, pair), camera);
     sum += pixel ? cv::norm(*pixel - pair.pixel) : std::numeric_limits<double>::infinity();
   }
   return sum / static_cast<double>(marker.pairs.size()) < marker.tolerance;

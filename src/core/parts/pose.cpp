@@ -21,7 +21,10 @@ constexpr double RAYLEIGH_MEDIAN = 1.1774;  // median length of a plane vector o
 // outliers beside them (0.2: 57 of 3000 pairs left out in 60 good pictures, 0.5: 5; 1.0 instead of 0.86 mm at 6 m).
 constexpr double MIN_SCALE = 0.5;
 constexpr double MAX_RMS_ERROR = 2;  // [px]; a wrong size or orientation of a board gives tens
-constexpr double SAME_TURN = 1e-3;   // [rad] and relative to the distance: two starts met in one minimum
+// [rad] and relative to the distance: two starts met in one minimum. They may have left out other outliers, which turns
+// them by a thousandth; a flip turns by degrees.
+constexpr double SAME_TURN = 1e-2;
+constexpr double SAME_PLACE = 1e-3;
 // Difference of chi^2 from which the residuals tell two poses apart: by chance the wrong one is the better once in
 // exp(20 / 2) = 22000 times.
 constexpr double EVIDENCE = 20;
@@ -95,7 +98,7 @@ bool isSame(const Pose& a, const Pose& b)
 {
   const cv::Affine3d difference = a.camera_part.inv() * b.camera_part;
   return cv::norm(difference.rvec()) < SAME_TURN &&
-         cv::norm(difference.translation()) < SAME_TURN * cv::norm(a.camera_part.translation());
+         cv::norm(difference.translation()) < SAME_PLACE * cv::norm(a.camera_part.translation());
 }
 }  // namespace
 
@@ -154,10 +157,18 @@ std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& c
   {
     Pose pose;
     pose.camera_part = start;
-    if (refinePose(pairs, camera, pose) &&
-        std::none_of(poses.begin(), poses.end(), [&](const Pose& known) { return isSame(known, pose); }))
+    if (!refinePose(pairs, camera, pose))
+    {
+      continue;
+    }
+    const auto same = std::find_if(poses.begin(), poses.end(), [&](const Pose& known) { return isSame(known, pose); });
+    if (same == poses.end())
     {
       poses.push_back(pose);
+    }
+    else if (pose.chi_square < same->chi_square)
+    {
+      *same = pose;
     }
   }
   std::sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.chi_square < b.chi_square; });

@@ -41,6 +41,14 @@ bool bestPlane(const std::vector<PointPair>& pairs, cv::Affine3d& plane)
 }
 }  // namespace
 
+cv::Point3d seenPoint(const cv::Affine3d& camera_part, const PointPair& pair)
+{
+  const cv::Point3d center = camera_part * pair.point;
+  const cv::Vec3d axis = camera_part.rotation() * pair.circle;
+  const cv::Vec3d shift = (axis[2] * axis - cv::Vec3d(0, 0, axis.dot(axis))) * (1 / center.z);
+  return center + cv::Point3d(shift);
+}
+
 Reprojection::Reprojection(const std::vector<PointPair>& pairs, const Camera& camera) : pairs_(pairs), camera_(camera)
 {
   weights_.assign(pairs.size(), 1);
@@ -57,7 +65,7 @@ std::vector<cv::Vec2d> Reprojection::residuals(const cv::Affine3d& pose, std::ve
   points.reserve(pairs_.size());
   for (const PointPair& pair : pairs_)
   {
-    points.push_back(pose * pair.point);
+    points.push_back(seenPoint(pose, pair));
     if (!(points.back().z > 1e-6))
     {
       return {};

@@ -10,6 +10,12 @@
 
 namespace omr
 {
+/**
+ * The point in the camera's frame that is seen at the pixel of a pair: the pair's own, and of a circle the pole of the
+ * line in its plane that lies as near as the camera's centre, which is what is seen in the middle of the ellipse.
+ */
+cv::Point3d seenPoint(const cv::Affine3d& camera_part, const PointPair& pair);
+
 /** The weighted least squares problem behind a pose. Its six unknowns are those of Pose::covariance. */
 class Reprojection
 {
