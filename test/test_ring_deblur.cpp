@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "render_target.h"
 #include "targets/color_key.h"
 #include "targets/ring_fit.h"
@@ -67,6 +69,41 @@ TEST(RingDeblur, completeRingsMissNone)
   scene.radii = {4, 12, 16, 25};
   scene.colors = "RWGP";
   EXPECT_EQ(0, omr::mergedBoundary(profileOf(scene), scene.radii));
+}
+
+TEST(RingDeblur, whatTheBlurHidesIsLeftUnexplained)
+{
+  TargetScene scene;
+  scene.radii = {4, 8, 12, 16, 20};
+  scene.colors = "WBWRP";
+  const omr::RingProfile profile = profileOf(scene);
+  EXPECT_LT(omr::unexplained(profile, scene.radii), .057);
+  EXPECT_GT(omr::unexplained(profile, {4, 8, 12, 20}), .08);
+}
+
+TEST(RingFit, theBlurMayBeSharperOrWiderThanUsual)
+{
+  const std::vector<double> radii = {30, 33, 36};
+  const std::vector<double> brightness = {200, 60, 180, 80};
+  for (const double deviation : {.6, 1., 1.4})
+  {
+    std::vector<cv::Vec3d> samples;
+    for (int i = 0; i < 80; ++i)
+    {
+      double value = brightness[0];
+      for (std::size_t k = 0; k < radii.size(); ++k)
+      {
+        value +=
+            (brightness[k + 1] - brightness[k]) * .5 * std::erfc((radii[k] - .5 * i) / (deviation * std::sqrt(2.)));
+      }
+      samples.emplace_back(value, 0, 0);
+    }
+    const omr::RingFit::Result fit = omr::RingFit(samples, .5, radii).fit();
+    for (std::size_t k = 0; k < brightness.size(); ++k)
+    {
+      EXPECT_NEAR(brightness[k], fit.colors[k][0], 3);
+    }
+  }
 }
 
 TEST(RingFit, aRadiusThatCameAndWentLeavesNoTrace)

@@ -140,6 +140,18 @@ TEST(Targets, narrowRingsWithHuesAtHalfTheResolution)
   EXPECT_EQ("PGRPG", targets[0].colors);
 }
 
+TEST(Targets, noneWhereTheBlurHidesRings)
+{
+  for (const std::string colors : {"GPWPRB", "BPWPRP"})
+  {
+    TargetScene scene;
+    scene.colors = colors;
+    scene.radii = {2, 4.7, 8.1, 10.1, 12.8, 16.2};
+    scene.sheet_half_side = 30;
+    EXPECT_TRUE(findTargetsIn(renderTarget(scene)).empty());
+  }
+}
+
 TEST(Targets, minRingsDecidesAboutTwoRings)
 {
   TargetScene scene;

@@ -98,6 +98,13 @@ std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::ve
   return colors;
 }
 
+double unexplained(const RingProfile& profile, const std::vector<double>& radii)
+{
+  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  const RingFit::Result whole = RingFit(samples, profile.step, radii).fit();
+  return whole.rms / std::max(1., strongestContrast(whole));
+}
+
 bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
 {
   const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);

@@ -19,6 +19,13 @@ namespace omr
 std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::vector<double>& radii);
 
 /**
+ * What uniform rings leave of the profile: root mean square, relative to the strongest contrast of two neighbours.
+ *
+ * @param radii of the boundaries [px], not empty.
+ */
+double unexplained(const RingProfile& profile, const std::vector<double>& radii);
+
+/**
  * Whether the blur of the other boundaries explains what looks like a boundary.
  *
  * @param radii of the boundaries [px], at least two.

@@ -8,8 +8,8 @@
 namespace omr
 {
 /**
- * Fits rings of uniform colour, seen through the blur of lens and camera, to samples along a ray. Of a row of fits that
- * differ in one radius, only that one's blur is computed again.
+ * Fits rings of uniform colour, seen through the blur of lens and camera, to samples along a ray. How wide the blur is
+ * the first radii tell; of a row of fits that differ in one radius, only that one's blur is computed again.
  */
 class RingFit
 {
@@ -40,7 +40,8 @@ class RingFit
  private:
   using Blurred = std::array<std::vector<double>, 2>;  // of a disk, at each sample: by the blur of brightness, of hue
 
-  Blurred blur(double radius) const;
+  void findBlur(bool is_hue);
+  std::vector<double> blur(double radius, double deviation) const;
   cv::Vec2d value(std::size_t sample, bool is_hue) const;
   double fitPart(bool is_hue, std::vector<cv::Vec3d>& colors);
   void addPrior(bool is_hue, std::size_t stride);
@@ -49,6 +50,7 @@ class RingFit
   const std::vector<cv::Vec3d>& samples_;
   double step_;
   std::vector<double> radii_;
+  std::array<double, 2> deviations_{};  // of the blur of brightness, of hue [px]
   std::vector<Blurred> disks_;
   std::vector<double> shares_;  // of each ring in each sample's light
   std::vector<double> normal_;
