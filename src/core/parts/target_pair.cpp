@@ -32,12 +32,6 @@ std::optional<cv::Vec3d> axisOf(const Part& part, const PartTarget& target)
   return std::nullopt;
 }
 
-bool isConcentric(const cv::RotatedRect& ellipse, const cv::Point2d& center)
-{
-  const double radius = std::max(ellipse.size.width, ellipse.size.height) / 2.0;
-  return cv::norm(cv::Point2d(ellipse.center) - center) < CONCENTRIC * radius;
-}
-
 /** The centre that an ellipse would have without the distortion of the lens, as a pixel of the image with it. */
 cv::Point2d straightCenter(const cv::RotatedRect& ellipse, const Camera& camera)
 {
@@ -60,11 +54,16 @@ cv::Point2d straightCenter(const cv::RotatedRect& ellipse, const Camera& camera)
 PointPair targetPair(const Part& part, const PartTarget& target, const Target& seen, const Camera& camera)
 {
   const std::optional<cv::Vec3d> axis = axisOf(part, target);
-  const bool known = axis && seen.rings.size() == target.colors.size();
-  if (known && isConcentric(seen.rings.back(), seen.center))
+  if (axis && seen.rings.size() == target.colors.size())
   {
-    const double radius = target.ring * static_cast<double>(target.colors.size());
-    return {target.center, straightCenter(seen.rings.back(), camera), RING_SIGMA, *axis * radius};
+    const cv::RotatedRect& ellipse = seen.rings.back();
+    const cv::Point2d middle = straightCenter(ellipse, camera);
+    const double radius = std::max(ellipse.size.width, ellipse.size.height) / 2.0;
+    if (cv::norm(middle - seen.center) < CONCENTRIC * radius)
+    {
+      const double length = target.ring * static_cast<double>(target.colors.size());
+      return {target.center, middle, RING_SIGMA, *axis * length};
+    }
   }
   return {target.center, seen.center, TARGET_SIGMA};
 }
