@@ -185,20 +185,24 @@ class DeviationNodelet : public CheckedNodelet
     const std::lock_guard<std::mutex> lock(mutex_);
     const double silence = (ros::SteadyTime::now() - last_time_).toSec();
     int measured = 0;
+    std::string reasons;
     for (const outdoor_omr::Deviation& deviation : last_.deviations)
     {
       measured += deviation.verdict != outdoor_omr::Deviation::UNKNOWN ? 1 : 0;
+      reasons += deviation.reason.empty() ? "" : (reasons.empty() ? ": " : "; ") + deviation.reason;
       status.add(deviation.part, deviation.reason.empty() ? std::to_string(deviation.distance_mm) + " mm, " +
                                                                 std::to_string(deviation.angle_deg) + " degrees"
                                                           : deviation.reason);
     }
     if (silence > PATIENCE)
     {
-      status.summaryf(DiagnosticStatus::WARN, "No parts for %.0f s.", silence);
+      status.summaryf(DiagnosticStatus::WARN,
+                      "No parts on %s for %.0f s: does a position or fusion node publish there?",
+                      parts_.getTopic().c_str(), silence);
       return;
     }
     status.summaryf(measured < static_cast<int>(goals_.size()) ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
-                    "%d of %zu parts measured.", measured, goals_.size());
+                    "%d of %zu parts measured%s.", measured, goals_.size(), reasons.c_str());
   }
 
   std::vector<Goal> goals_;

@@ -122,6 +122,10 @@ Checkerboard toBoard(const outdoor_omr::Checkerboard& from)
   }
   for (std::size_t i = 0; i < count; ++i)
   {
+    if (!std::isfinite(from.inner_corners[i].x + from.inner_corners[i].y))
+    {
+      throw std::invalid_argument("a checkerboard with an inner corner that is no number");
+    }
     board.inner_corners.emplace_back(from.inner_corners[i].x, from.inner_corners[i].y);
     board.inner_corners_seen.push_back(from.inner_corners_seen[i] != 0);
   }
@@ -162,6 +166,10 @@ std::vector<Target> fromMessage(const outdoor_omr::TargetArray& message)
     Target target;
     target.colors = from.colors;
     target.center = {from.center.x, from.center.y};
+    if (!std::isfinite(target.center.x + target.center.y))
+    {
+      throw std::invalid_argument("a target whose centre is no number");
+    }
     for (const outdoor_omr::Ellipse& ring : from.rings)
     {
       target.rings.emplace_back(cv::Point2f(ring.center.x, ring.center.y), cv::Size2f(ring.major_axis, ring.minor_axis),

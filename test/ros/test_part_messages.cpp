@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <stdexcept>
+
 #include "part_messages.h"
 #include "pose_messages.h"
 
@@ -47,6 +50,25 @@ TEST(PartMessages, sectionsFollowTheBoards)
   ASSERT_EQ(boards.size(), 2U);
   EXPECT_EQ(boards[0].cols, 4);
   EXPECT_EQ(boards[1].cols, 3);
+}
+
+TEST(PartMessages, pixelsThatAreNoNumbersAreRefused)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  outdoor_omr::CheckerboardArray boards;
+  boards.checkerboards.resize(1);
+  boards.checkerboards[0].rows = boards.checkerboards[0].cols = 3;
+  boards.checkerboards[0].inner_corners.resize(4);
+  boards.checkerboards[0].inner_corners_seen.assign(4, 1U);
+  EXPECT_EQ(omr::fromMessage(boards).size(), 1U);
+  boards.checkerboards[0].inner_corners[2].y = nan;
+  EXPECT_THROW(omr::fromMessage(boards), std::invalid_argument);
+
+  outdoor_omr::TargetArray targets;
+  targets.targets.resize(1);
+  EXPECT_EQ(omr::fromMessage(targets).size(), 1U);
+  targets.targets[0].center.x = nan;
+  EXPECT_THROW(omr::fromMessage(targets), std::invalid_argument);
 }
 
 TEST(PartMessages, copiesAreFollowedAndHaveFramesOfTheirOwn)

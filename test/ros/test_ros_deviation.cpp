@@ -14,6 +14,7 @@ using outdoor_omr::DeviationArray;
 using outdoor_omr::Part;
 using outdoor_omr::PartArray;
 using ros_test::Listener;
+using ros_test::newestStatus;
 using ros_test::waitFor;
 
 namespace
@@ -116,6 +117,17 @@ TEST_F(DeviationNodelet, saysWhyItDoesNotKnow)
   const Deviation deviation = answer(broken).at(0);
   EXPECT_EQ(deviation.verdict, Deviation::UNKNOWN);
   EXPECT_NE(deviation.reason.find("quaternion"), std::string::npos) << deviation.reason;
+}
+
+TEST_F(DeviationNodelet, tellsTheOperatorWhatIsNotMeasuredAndWhy)
+{
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto message = [&] { return newestStatus(diagnostics, "deviation: deviation of parts").message; };
+  EXPECT_TRUE(waitFor([&] {
+    answer(PartArray());
+    return message() == "0 of 2 parts measured: 'plate' is not in view; 'pipe' is not in view.";
+  })) << message();
+  EXPECT_TRUE(waitFor([&] { return message().find("No parts on /parts for ") == 0; })) << message();
 }
 
 TEST_F(DeviationNodelet, takesTheWayToTheGoalsFrameFromTf)
