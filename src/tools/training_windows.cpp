@@ -49,7 +49,8 @@ bool covers(const PlacedMarker& marker, const cv::Point2d& point)
 {
   if (marker.kind == MarkerKind::target)
   {
-    return std::hypot(point.x, point.y) <= static_cast<double>(marker.colors.size());
+    const auto rings = static_cast<double>(marker.colors.size());
+    return point.dot(point) <= rings * rings;
   }
   return point.x >= 0 && point.y >= 0 && point.x <= marker.squares.width && point.y <= marker.squares.height;
 }
