@@ -81,6 +81,10 @@ LineSupport lineSupport(const Lattice& lattice, CornerLooker& looker, Side side)
   LineSupport support;
   support.share = static_cast<float>(found) / static_cast<float>(end - start);
   support.enough = anchored >= 1 || (found >= 2 && support.share >= MIN_SHARE && convincing >= 1);
+  // One corner beyond a whole line is rather the background's beside a narrow margin. Of 969 photographs of boards that
+  // were scaled, turned, darkened, blurred: found 739 -> 746, wrong 8 -> 3.
+  const bool beyond_whole = countOnLine(lattice, side, line + inwards(side)) == end - start;
+  support.enough = support.enough && (found > 1 || !beyond_whole);
   // The border beyond speaks for a line that lies alone behind a gap, where no prediction is sharp.
   support.enough = support.enough || (found > 0 && lookAtBorder(lattice, looker.frame(), side, 1).ends());
   // A line where the board ends, rather than goes on, has more outer corners than inner ones.

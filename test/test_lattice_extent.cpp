@@ -1,0 +1,43 @@
+#include "checkerboards/lattice_extent.h"
+
+#include <gtest/gtest.h>
+
+#include "checkerboards/lattice.h"
+#include "checkerboards/lattice_growth.h"
+#include "render.h"
+
+using omr::CornerLook;
+using omr::CornerLooker;
+using omr::CornerQuery;
+using omr::Frame;
+using omr::Lattice;
+using omr::LocalFrame;
+using omr::test::Render;
+
+TEST(LatticeExtent, aSingleCornerBeyondAWholeLineIsTheBackgrounds)
+{
+  const cv::Matx33d truth = omr::test::boardHomography(7, 10, {320, 240}, 36, 4, 20);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  Render render({640, 480}, cv::Scalar::all(25));
+  render.addBoard(7, 10, truth, true, 0.03);
+  // With the black square (0, 4), the white one above and the dark ground it alternates around (0, 4), once.
+  render.addPolygon({at(-1.2, 4), at(-0.03, 4), at(-0.03, 8), at(-1.2, 8)}, cv::Scalar::all(230));
+  const cv::Mat picture = render.picture();
+  const Frame frame = omr::makeFrame(picture);
+  CornerLooker looker(frame, 10000);
+  const LocalFrame seed{at(5, 3), at(6, 3) - at(5, 3), at(5, 4) - at(5, 3)};
+  const CornerLook corner = looker.look(seed, CornerQuery());
+  ASSERT_TRUE(corner.found);
+  Lattice lattice;
+  lattice.start(seed, corner);
+  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  ASSERT_EQ(cv::Size(10, 6), lattice.box.size()) << "nothing of the background resembles a corner";
+  settleExtent(lattice, looker);
+  EXPECT_EQ(cv::Size(9, 6), lattice.box.size());
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
