@@ -20,6 +20,7 @@ void Lattice::start(const LocalFrame& seed, const CornerLook& corner)
   count_ = 0;
   box = cv::Rect();
   bends_strongly = false;
+  radial.reset();
   put(SEED, SEED, corner);
 }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "corner_look.h"
 #include "local_frame.h"
+#include "radial_model.h"
 
 namespace omr
 {
@@ -75,8 +77,10 @@ class Lattice
   /** Columns x, rows y of the nodes; the extents of the board once they are settled. */
   cv::Rect box;
 
-  /** As in the picture of a fisheye: predictions take cubic terms, and are vague all the same. */
+  /** As in the picture of a fisheye. */
   bool bends_strongly = false;
+  /** Of a lattice that bends strongly, where its corners lie so. */
+  std::optional<RadialModel> radial;
 
   const LocalFrame& seedFrame() const
   {

@@ -13,8 +13,7 @@ namespace
 constexpr int PREDICTION_WINDOW = 3;  // nodes
 constexpr float TOLERANCE = 0.25F;    // squares, while few corners support the prediction
 constexpr float SUPPORTED_TOLERANCE = 0.15F;
-constexpr float BENT_TOLERANCE = 0.2F;  // where the lattice bends strongly
-constexpr int SUPPORTED = 6;            // corners within two nodes
+constexpr int SUPPORTED = 6;  // corners within two nodes
 constexpr int MAX_ROUNDS = 60;
 
 /** Number of found corners within two nodes, and their median contrast. */
@@ -75,9 +74,7 @@ void lookAtNode(Lattice& lattice, CornerLooker& looker, int row, int col, float 
   CornerQuery query;
   query.sign = lattice.sign(row, col);
   query.contrast = known.contrast;
-  query.tolerance = known.count >= SUPPORTED
-                        ? std::min(tolerance, lattice.bends_strongly ? BENT_TOLERANCE : SUPPORTED_TOLERANCE)
-                        : tolerance;
+  query.tolerance = known.count >= SUPPORTED ? std::min(tolerance, SUPPORTED_TOLERANCE) : tolerance;
   const CornerLook corner = looker.look(predicted, query);
   if (corner.found && !isOnNeighbour(lattice, row, col, corner.position, 0.5F * squareHeight(predicted)))
   {
@@ -143,8 +140,7 @@ bool changeAt(const Lattice& lattice, int row, int col, int down, int right, cv:
 
 /**
  * Whether the steps between corners change from square to square so much that the change itself does, as in pictures of
- * fisheyes. Neighbouring lines must agree: single corners are also moved by the edges of shadows. Boards in drawn
- * pictures of fisheyes, of 223: 202 -> 215.
+ * fisheyes. Neighbouring lines must agree: single corners are also moved by the edges of shadows.
  */
 bool bendsStrongly(const Lattice& lattice)
 {
@@ -210,9 +206,16 @@ void growLattice(Lattice& lattice, CornerLooker& looker, int max_count)
     {
       lookAtNode(lattice, looker, frontier.candidates[i].row, frontier.candidates[i].col, TOLERANCE);
     }
-    if (!lattice.bends_strongly && bendsStrongly(lattice))
+    const bool bent = lattice.bends_strongly;
+    lattice.bends_strongly = bent || bendsStrongly(lattice);
+    if (lattice.bends_strongly)
     {
-      lattice.bends_strongly = true;
+      RadialModel model;
+      const bool fits = model.fit(lattice, looker.frame().raw_grey.size());
+      lattice.radial = fits ? std::optional<RadialModel>(model) : std::nullopt;
+    }
+    if (lattice.bends_strongly && !bent)
+    {
       forgetLooks(lattice);
     }
     else if (lattice.count() == before)

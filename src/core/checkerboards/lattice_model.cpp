@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "homography_fit.h"
 #include "least_squares.h"
 
 namespace omr
@@ -18,77 +19,6 @@ constexpr double MIN_OUTLIER = 0.4;    // px
 constexpr double OUTLIER_RMS = 4;
 constexpr int MIN_QUARTIC_CORNERS = 30;  // twice its terms
 constexpr double QUARTIC_RIDGE = 0.1;    // a stiffer one keeps the quartic from the outermost corners
-
-cv::Point2d mapPoint(const cv::Matx33d& homography, const cv::Point2d& point)
-{
-  const cv::Vec3d mapped = homography * cv::Vec3d(point.x, point.y, 1);
-  return {mapped[0] / mapped[2], mapped[1] / mapped[2]};
-}
-
-/**
- * Homography by linear least squares (Hartley & Zisserman, section 4.1.2), solved again with each equation divided by
- * the denominator of the first solution, which makes its error that of the image. As exact as cv::findHomography()
- * here, at a tenth of its time, of which half of the search was made.
- *
- * @param from    of size 1.
- * @param weights of the points.
- * @return false if the points span none.
- */
-bool fitHomography(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2f>& to,
-                   const std::vector<double>& weights, cv::Matx33d& homography)
-{
-  constexpr int ROUNDS = 2;
-  constexpr int UNKNOWNS = 8;
-  cv::Point2d center;
-  for (const cv::Point2f& point : to)
-  {
-    center += cv::Point2d(point) / static_cast<double>(to.size());
-  }
-  double size = 0;
-  for (const cv::Point2f& point : to)
-  {
-    size += cv::norm(cv::Point2d(point) - center) / static_cast<double>(to.size());
-  }
-  cv::Matx33d fitted(1, 0, 0, 0, 1, 0, 0, 0, 1);
-  for (int round = 0; round < ROUNDS; ++round)
-  {
-    cv::Matx<double, UNKNOWNS, UNKNOWNS> normal;
-    cv::Vec<double, UNKNOWNS> right;
-    for (std::size_t i = 0; i < from.size(); ++i)
-    {
-      const double x = from[i].x;
-      const double y = from[i].y;
-      const cv::Point2d target = (cv::Point2d(to[i]) - center) / size;
-      const double denominator = round == 0 ? 1 : fitted(2, 0) * x + fitted(2, 1) * y + 1;
-      const double weight = weights[i] / (denominator * denominator);
-      const cv::Vec<double, UNKNOWNS> first(x, y, 1, 0, 0, 0, -target.x * x, -target.x * y);
-      const cv::Vec<double, UNKNOWNS> second(0, 0, 0, x, y, 1, -target.y * x, -target.y * y);
-      for (int a = 0; a < UNKNOWNS; ++a)
-      {
-        for (int b = 0; b <= a; ++b)
-        {
-          normal(a, b) += weight * (first[a] * first[b] + second[a] * second[b]);
-        }
-        right[a] += weight * (first[a] * target.x + second[a] * target.y);
-      }
-    }
-    for (int a = 0; a < UNKNOWNS; ++a)
-    {
-      for (int b = a + 1; b < UNKNOWNS; ++b)
-      {
-        normal(a, b) = normal(b, a);
-      }
-    }
-    cv::Vec<double, UNKNOWNS> h;
-    if (!cv::solve(normal, right, h, cv::DECOMP_CHOLESKY))
-    {
-      return false;
-    }
-    fitted = {h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1};
-  }
-  homography = cv::Matx33d(size, 0, center.x, 0, size, center.y, 0, 0, 1) * fitted;
-  return true;
-}
 }  // namespace
 
 cv::Point2d LatticeModel::place(double row, double col) const
@@ -143,7 +73,7 @@ LocalFrame LatticeModel::frameAt(double row, double col) const
   return {at(row, col), 0.5F * (at(row, col + 1) - at(row, col - 1)), 0.5F * (at(row + 1, col) - at(row - 1, col))};
 }
 
-bool LatticeModel::fitPolynomial(const std::vector<cv::Point2d>& places, const std::vector<cv::Point2f>& positions,
+bool LatticeModel::fitPolynomial(const std::vector<cv::Point2d>& places, const std::vector<cv::Point2d>& positions,
                                  const std::vector<double>& weights, double ridge)
 {
   PointFit<MAX_TERMS> fit;
@@ -151,7 +81,7 @@ bool LatticeModel::fitPolynomial(const std::vector<cv::Point2d>& places, const s
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     features(places[i], values);
-    fit.add(values, cv::Point2d(positions[i]) - mapPoint(homography_, places[i]), weights[i], terms_);
+    fit.add(values, positions[i] - mapPoint(homography_, places[i]), weights[i], terms_);
   }
   for (int i = 0; i < terms_; ++i)
   {
@@ -173,7 +103,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
   half_height_ = (box.height - 1) / 2.;
   half_width_ = (box.width - 1) / 2.;
   std::vector<cv::Point2d> places;
-  std::vector<cv::Point2f> positions;
+  std::vector<cv::Point2d> positions;
   std::vector<double> given;
   for (int i = box.y; i < box.br().y; ++i)
   {
@@ -206,7 +136,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
     double weight = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      residuals[i] = length(at(places[i]) - positions[i]);
+      residuals[i] = cv::norm(cv::Point2d(at(places[i])) - positions[i]);
       sum += weights[i] * residuals[i] * residuals[i];
       weight += weights[i];
     }

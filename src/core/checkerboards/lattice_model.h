@@ -72,7 +72,7 @@ class LatticeModel
   cv::Point2d place(double row, double col) const;
   cv::Point2f at(const cv::Point2d& place) const;
   static void features(const cv::Point2d& place, double (&values)[MAX_TERMS]);
-  bool fitPolynomial(const std::vector<cv::Point2d>& places, const std::vector<cv::Point2f>& positions,
+  bool fitPolynomial(const std::vector<cv::Point2d>& places, const std::vector<cv::Point2d>& positions,
                      const std::vector<double>& weights, double ridge);
 
   cv::Matx33d homography_ = cv::Matx33d::eye();  // from place() to pixels
