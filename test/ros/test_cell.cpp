@@ -11,6 +11,7 @@
 #include "board_view.h"
 #include "child_process.h"
 #include "pose_messages.h"
+#include "reload.h"
 #include "ros_test.h"
 
 using outdoor_omr::Deviation;
@@ -145,6 +146,20 @@ TEST(Cell, fromABagOfTwoCamerasToTheDeviationOfAPlate)
   const Deviation unknown = ofPhase(deviations, CONTRADICTING, at_refusal).front()->deviations[0];
   EXPECT_EQ(unknown.verdict, Deviation::UNKNOWN);
   EXPECT_EQ(unknown.reason, "'plate' is ambiguous: several parts or poses fit what is seen");
+}
+TEST(Cell, everyReaderOfThePartsFileReadsItAnew)
+{
+  for (const std::string node : {"/left/position", "/right/position", "/fusion"})
+  {
+    ASSERT_TRUE(waitFor([&] { return ros::service::exists(node + "/reload", false); }));
+    const ros_test::ReloadedFile file(node, "parts");
+    std_srvs::TriggerResponse response = file.reload("parts: plate\n");
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(0U, response.message.find(file.path() + ":1: parts: expected")) << response.message;
+    response = file.reload("parts:\n- name: lid\n  checkerboards:\n  - {rows: 7, cols: 10, square: 0.03}\n");
+    EXPECT_TRUE(response.success);
+    EXPECT_EQ("1 part in " + file.path(), response.message);
+  }
 }
 }  // namespace
 
