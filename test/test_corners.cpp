@@ -88,6 +88,19 @@ TEST(Corners, aHiddenCornerGetsItsForecastAndTheFlag)
   EXPECT_LT(cv::norm(error), 0.15);
 }
 
+TEST(Corners, oneThatTheSearchDidNotFindIsSeenAllTheSame)
+{
+  const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);
+  Render render({400, 300});
+  render.addBoard(5, 7, board);
+  const Frame frame = omr::makeFrame(render.picture());
+  Lattice lattice = grow(frame, frameAt(board, 1, 1));
+  ASSERT_EQ(24, lattice.count());
+  lattice.remove(lattice.box.y + 1, lattice.box.x + 2);
+  const std::vector<bool> seen = refineCorners(frame, lattice);
+  EXPECT_EQ(24, std::count(seen.begin(), seen.end(), true));
+}
+
 TEST(Corners, ofTooFewForASurfaceEachIsWhereItsPictureHasIt)
 {
   const cv::Matx33d board = omr::test::boardHomography(5, 7, {200, 150}, 25, 10, 0);

@@ -214,7 +214,7 @@ CornerFit fitCorner(const cv::Mat& grey, const LocalFrame& corner)
   }
   const float contrast = std::max(LEAST_CONTRAST, std::abs(picture[3]));
   const float step = std::max({LEAST_CONTRAST, std::abs(picture[1]), std::abs(picture[2])});
-  return {corner.at(picture[4] / square_u, picture[5] / square_v), lacking / contrast, contrast / step};
+  return {corner.at(picture[4] / square_u, picture[5] / square_v), lacking / contrast, contrast / step, 2 * picture[3]};
 }
 
 }  // namespace omr

@@ -17,6 +17,8 @@ struct CornerFit
   /** Difference between opposite quadrants and the others, in the larger step across an edge: of the outer corner of a
    * square 1, of an edge 0, of four squares much more but where a shadow's edge runs along theirs. */
   float squareness = 0;
+  /** The squares towards +u+v and -u-v minus the others [grey levels]. */
+  float contrast = 0;
 };
 
 /**
