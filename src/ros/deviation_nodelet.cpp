@@ -19,6 +19,7 @@
 #include "pose_messages.h"
 #include "reload_service.h"
 #include "status_report.h"
+#include "transform_wait.h"
 
 namespace omr
 {
@@ -104,7 +105,7 @@ class DeviationNodelet : public CheckedNodelet
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
     const std::string read = readFile();
-    patience_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
+    patience_ = ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
     NODELET_INFO("%s", read.c_str());
     report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
                                              [this](auto& status) { report(status); });
@@ -176,7 +177,7 @@ class DeviationNodelet : public CheckedNodelet
       return relativeTo(fromMessage(onlyOne(goal.frame, parts).pose), estimate);
     }
     const geometry_msgs::TransformStamped transform =
-        buffer_.lookupTransform(goal.frame, parts.header.frame_id, parts.header.stamp, patience_);
+        lookupWithin(buffer_, goal.frame, parts.header.frame_id, parts.header.stamp, patience_);
     return transformed(estimate, fromMessage(transform.transform));
   }
 
@@ -206,7 +207,7 @@ class DeviationNodelet : public CheckedNodelet
   }
 
   std::vector<Goal> goals_;
-  ros::Duration patience_;
+  ros::WallDuration patience_;
   std::mutex mutex_;
   outdoor_omr::DeviationArray last_;
   ros::SteadyTime last_time_ = ros::SteadyTime::now();

@@ -20,6 +20,7 @@
 #include "reload_service.h"
 #include "status_report.h"
 #include "tracker_parameters.h"
+#include "transform_wait.h"
 #include "view_collector.h"
 
 namespace omr
@@ -62,7 +63,7 @@ class FusionNodelet : public CheckedNodelet
                                   ", the number of inputs, not " + std::to_string(settings_.min_cameras));
     }
     const double patience = readNumber(private_nh, "patience", 0.1, 10);
-    tf_timeout_ = ros::Duration(readNumber(private_nh, "tf_timeout", 0.1, 10));
+    tf_timeout_ = ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, 10));
     tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     collector_ =
@@ -162,7 +163,7 @@ class FusionNodelet : public CheckedNodelet
     {
       return cv::Affine3d::Identity();
     }
-    return fromMessage(buffer_.lookupTransform(frame_, camera.frame_id, camera.stamp, tf_timeout_).transform);
+    return fromMessage(lookupWithin(buffer_, frame_, camera.frame_id, camera.stamp, tf_timeout_).transform);
   }
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status)
@@ -212,7 +213,7 @@ class FusionNodelet : public CheckedNodelet
   std::string frame_;
   std::vector<Part> descriptions_;  // for the markers; empty: they show nothing
   FusionSettings settings_;
-  ros::Duration tf_timeout_;
+  ros::WallDuration tf_timeout_;
   bool publish_tf_ = true;
   const ros::SteadyTime start_ = ros::SteadyTime::now();
 

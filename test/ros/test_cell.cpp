@@ -161,6 +161,23 @@ TEST(Cell, everyReaderOfThePartsFileReadsItAnew)
     EXPECT_EQ("1 part in " + file.path(), response.message);
   }
 }
+// As when a bag is paused: nothing that waits in simulated time would ever return.
+TEST(Cell, waitForAMissingTransformEndsWhileTheClockStandsStill)
+{
+  const Listener<DeviationArray> deviations("deviation/deviations");
+  ros::Publisher parts = ros::NodeHandle().advertise<PartArray>("fusion/parts", 1);
+  ASSERT_TRUE(waitFor([&] { return deviations.connected() && parts.getNumSubscribers() > 0; }));
+  PartArray message;
+  message.header.frame_id = "nowhere";
+  message.parts.resize(1);
+  message.parts[0].name = "plate";
+  message.parts[0].pose.pose.orientation.w = 1;
+  parts.publish(message);
+  ASSERT_TRUE(waitFor([&] { return deviations.count() > 0; }));
+  const Deviation unknown = deviations.messages().back()->deviations[0];
+  EXPECT_EQ(unknown.verdict, Deviation::UNKNOWN);
+  EXPECT_NE(unknown.reason.find("nowhere"), std::string::npos) << unknown.reason;
+}
 }  // namespace
 
 int main(int argc, char** argv)
