@@ -35,6 +35,28 @@ std::string letters(const omr::RingProfile& profile, const std::vector<double>& 
   colors.pop_back();
   return omr::readColorKey(colors, around);
 }
+
+/** Four grey rings behind a blur of 1 px, of which the third and the fourth differ. @param step [grey levels] */
+omr::RingProfile fourRings(double step)
+{
+  const std::vector<double> radii = {24, 28, 32, 36};
+  const std::vector<double> brightness = {200, 60, 160, 160 - step, 60};
+  omr::RingProfile profile;
+  profile.step = .5;
+  profile.count = 80;
+  profile.inside.assign(omr::RingProfile::ANGLES, profile.count);
+  for (int sample = 0; sample < omr::RingProfile::ANGLES * profile.count; ++sample)
+  {
+    const double r = profile.step * (sample % profile.count);
+    double value = brightness[0];
+    for (std::size_t k = 0; k < radii.size(); ++k)
+    {
+      value += (brightness[k + 1] - brightness[k]) * .5 * std::erfc((radii[k] - r) / std::sqrt(2.));
+    }
+    profile.grey.push_back(cv::Vec3f::all(static_cast<float>(value)));
+  }
+  return profile;
+}
 }  // namespace
 
 TEST(RingDeblur, narrowRingsKeepTheirColours)
@@ -58,6 +80,12 @@ TEST(RingDeblur, aBoundaryThatIsMissingIsFound)
   const omr::RingProfile profile = profileOf(scene);
   EXPECT_NEAR(16, omr::mergedBoundary(profile, {4, 8, 12, 20}), .8);
   EXPECT_NEAR(8, omr::mergedBoundary(profile, {4, 12, 16, 20}), .8);
+}
+
+TEST(RingDeblur, aMissingBoundaryOfASeventhOfTheContrastIsFound)
+{
+  EXPECT_NEAR(32, omr::mergedBoundary(fourRings(20), {24, 28, 36}), .5);
+  EXPECT_EQ(0, omr::mergedBoundary(fourRings(12), {24, 28, 36}));
 }
 
 TEST(RingDeblur, completeRingsMissNone)
