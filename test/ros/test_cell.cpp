@@ -8,6 +8,8 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
+
 #include "board_view.h"
 #include "child_process.h"
 #include "pose_messages.h"
@@ -147,6 +149,7 @@ TEST(Cell, fromABagOfTwoCamerasToTheDeviationOfAPlate)
   EXPECT_EQ(unknown.verdict, Deviation::UNKNOWN);
   EXPECT_EQ(unknown.reason, "'plate' is ambiguous: several parts or poses fit what is seen");
 }
+
 TEST(Cell, everyReaderOfThePartsFileReadsItAnew)
 {
   for (const std::string node : {"/left/position", "/right/position", "/fusion"})
@@ -161,6 +164,7 @@ TEST(Cell, everyReaderOfThePartsFileReadsItAnew)
     EXPECT_EQ("1 part in " + file.path(), response.message);
   }
 }
+
 // As when a bag is paused: nothing that waits in simulated time would ever return.
 TEST(Cell, waitForAMissingTransformEndsWhileTheClockStandsStill)
 {
@@ -173,10 +177,15 @@ TEST(Cell, waitForAMissingTransformEndsWhileTheClockStandsStill)
   message.parts[0].name = "plate";
   message.parts[0].pose.pose.orientation.w = 1;
   parts.publish(message);
-  ASSERT_TRUE(waitFor([&] { return deviations.count() > 0; }));
-  const Deviation unknown = deviations.messages().back()->deviations[0];
-  EXPECT_EQ(unknown.verdict, Deviation::UNKNOWN);
-  EXPECT_NE(unknown.reason.find("nowhere"), std::string::npos) << unknown.reason;
+  // The cameras' last images may be on their way still.
+  const auto is_answer = [](const auto& array) {
+    const Deviation& deviation = array->deviations[0];
+    return deviation.reason.find("nowhere") != std::string::npos && deviation.verdict == Deviation::UNKNOWN;
+  };
+  EXPECT_TRUE(waitFor([&] {
+    const auto messages = deviations.messages();
+    return std::any_of(messages.begin(), messages.end(), is_answer);
+  }));
 }
 }  // namespace
 
