@@ -54,7 +54,11 @@ void DeviceFill::uploadWindows(const MarkerNetwork& network)
     upload(context_, queue_, gate.hidden > 0 ? packGate(gate) : std::vector<cl_float>(1), windows_->gate_weights);
     windows_->network = network;
   }
-  upload(context_, queue_, windowLevels(size_), windows_->levels);
+  if (windows_->size != size_)
+  {
+    upload(context_, queue_, windowLevels(size_), windows_->levels);
+    windows_->size = size_;
+  }
   queue_.enqueueFillBuffer(*windows_->lists, cl_uint(0), 0, sizeof(WindowLists));
 }
 

@@ -46,6 +46,7 @@ struct WindowBuffers
   GrowingBuffer scores;
 
   MarkerNetwork network;  ///< whose weights the buffers hold
+  cv::Size size;          ///< of the image whose levels they hold
 
   /** Makes room for an image of at least one pixel. @throws cl::Error if there is none. */
   void reserve(const cl::Context& context, const cv::Size& size);
