@@ -176,7 +176,7 @@ TEST(Candidates, aMarkerInItsPlaceReadsACandidate)
   candidates[2].box = {20, 150, 40, 40};
   omr::Target target;
   target.rings.emplace_back(cv::Point2f(40, 170), cv::Size2f(60, 60), 0);
-  omr::markRead({boardAt({104, 98, 44, 40}), boardAt({240, 130, 60, 60})}, {target}, candidates);
+  omr::markRead({320, 240}, {boardAt({104, 98, 44, 40}), boardAt({240, 130, 60, 60})}, {target}, candidates);
   EXPECT_TRUE(candidates[0].read);
   EXPECT_FALSE(candidates[1].read) << "only a corner of it is covered";
   EXPECT_TRUE(candidates[2].read);
@@ -190,7 +190,7 @@ TEST(Candidates, everyMarkerThatIsReadIsCoveredByOne)
   omr::Target target;
   target.rings.emplace_back(cv::Point2f(40, 170), cv::Size2f(60, 60), 0);
   const cv::Rect board(95, 90, 120, 80);
-  omr::markRead({boardAt(board)}, {target}, candidates);
+  omr::markRead({320, 240}, {boardAt(board)}, {target}, candidates);
   ASSERT_EQ(3U, candidates.size());
   EXPECT_GE((candidates[0].box & board).area(), .98 * board.area());
   EXPECT_EQ(cv::Rect(150, 100, 40, 40), candidates[1].box) << "once is enough";
@@ -198,8 +198,22 @@ TEST(Candidates, everyMarkerThatIsReadIsCoveredByOne)
   EXPECT_TRUE(candidates[2].read);
   EXPECT_EQ(MarkerKind::target, candidates[2].kind);
   EXPECT_TRUE(candidates[2].box.contains({12, 142}));
-  omr::markRead({boardAt(board)}, {target}, candidates);
+  omr::markRead({320, 240}, {boardAt(board)}, {target}, candidates);
   EXPECT_EQ(3U, candidates.size());
+}
+
+TEST(Candidates, thoseOfMarkersThatThePictureCutsEndWithIt)
+{
+  std::vector<Candidate> candidates;
+  omr::Target target;
+  target.rings.emplace_back(cv::Point2f(10, 100), cv::Size2f(60, 60), 0);
+  omr::markRead({320, 240}, {boardAt({280, 200, 100, 80})}, {target}, candidates);
+  ASSERT_EQ(2U, candidates.size());
+  for (const Candidate& candidate : candidates)
+  {
+    EXPECT_FALSE(candidate.box.empty());
+    EXPECT_EQ(candidate.box, candidate.box & cv::Rect(0, 0, 320, 240));
+  }
 }
 
 int main(int argc, char** argv)

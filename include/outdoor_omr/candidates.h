@@ -14,7 +14,7 @@ namespace omr
 /** A place where a marker probably is (paper, section 4.5). */
 struct Candidate
 {
-  cv::Rect box;  ///< covers most of the marker [px]
+  cv::Rect box;  ///< covers most of the marker, inside the image [px]
   MarkerKind kind = MarkerKind::checkerboard;
   float score = -1;    ///< largest of its windows, threshold of the network to 1; -1: read, though no window shows it
   int cell = 0;        ///< size of a cell of its windows [px]: squares are 1.5 to 3 cells, rings 1 to 2
@@ -47,9 +47,13 @@ std::vector<Candidate> findCandidates(const cv::Size& size, const std::vector<Ma
 /** Removes the candidates that were not read and whose windows give less evidence than the network asks for. */
 void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std::vector<Candidate>& candidates);
 
-/** Marks the candidates that show one of the markers as read. Each marker is covered by one then: windows see no more
- * than a part of many a large or shadowed marker that is read, and nothing of some. */
-void markRead(const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
+/**
+ * Marks the candidates that show one of the markers as read. What the image shows of each marker is covered by one
+ * then: windows see no more than a part of many a large or shadowed marker that is read, and nothing of some.
+ *
+ * @param size of the image [px].
+ */
+void markRead(const cv::Size& size, const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
               std::vector<Candidate>& candidates);
 
 }  // namespace omr

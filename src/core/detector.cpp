@@ -117,7 +117,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
   {
     StopWatch watch(times);
     markers.candidates = findCandidates(bgr.size(), window_scores_, network_);
-    markRead(markers.checkerboards, markers.targets, markers.candidates);
+    markRead(bgr.size(), markers.checkerboards, markers.targets, markers.candidates);
     FillPipeline::Outputs of_enlarged;
     of_enlarged.measures = false;
     const auto detect = [&](const cv::Mat& enlarged) {
@@ -126,7 +126,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     };
     removeDoubtful(network_, &BoxEvidence::enlarged, markers.candidates);
     readEnlarged(bgr, settings.candidate_looks, detect, markers);
-    markRead(markers.checkerboards, markers.targets, markers.candidates);
+    markRead(bgr.size(), markers.checkerboards, markers.targets, markers.candidates);
     removeDoubtful(network_, &BoxEvidence::shown, markers.candidates);
     watch.step("enlargements");
     if (settings.candidate_mode == CandidateMode::enlarge)

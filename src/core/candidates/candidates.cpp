@@ -231,17 +231,18 @@ void removeDoubtful(const MarkerNetwork& network, float BoxEvidence::*least, std
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), doubtful), candidates.end());
 }
 
-void markRead(const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
+void markRead(const cv::Size& size, const std::vector<Checkerboard>& checkerboards, const std::vector<Target>& targets,
               std::vector<Candidate>& candidates)
 {
+  const cv::Rect image({}, size);  // what is cut by it has corners, or half a ring, outside
   for (const Checkerboard& board : checkerboards)
   {
     const std::vector<cv::Point2f> corners(board.corners.begin(), board.corners.end());
-    markRead(cv::boundingRect(corners), MarkerKind::checkerboard, candidates);
+    markRead(cv::boundingRect(corners) & image, MarkerKind::checkerboard, candidates);
   }
   for (const Target& target : targets)
   {
-    markRead(target.rings.back().boundingRect(), MarkerKind::target, candidates);
+    markRead(target.rings.back().boundingRect() & image, MarkerKind::target, candidates);
   }
 }
 
