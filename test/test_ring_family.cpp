@@ -1,10 +1,10 @@
-#include "targets/bent_refinement.h"
-#include "targets/ring_refinement.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "targets/bent_refinement.h"
+#include "targets/ring_refinement.h"
 
 using omr::BoundaryPoint;
 using omr::RingFamily;

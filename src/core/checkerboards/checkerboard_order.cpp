@@ -1,8 +1,9 @@
 #include "checkerboard_order.h"
-#include "lattice_prediction.h"
 
 #include <array>
 #include <cmath>
+
+#include "lattice_prediction.h"
 
 namespace omr
 {
