@@ -119,6 +119,17 @@ TEST(Camera, rectifiedNeedsNoDistortionModel)
   EXPECT_NO_THROW(Camera(info, ImageKind::RECTIFIED));
 }
 
+TEST(Camera, strongDistortionIsALens)
+{
+  CameraInfo info = cameraInfo();
+  info.K = {500, 0, 950, 0, 500, 530, 0, 0, 1};  // 125 degrees wide
+  info.D = {-0.32, 0.12, 0.001, -0.001, -0.02};  // does not rise to the corners
+  EXPECT_NO_THROW(Camera(info, ImageKind::RAW));
+  info.distortion_model = "equidistant";  // 230 degrees wide
+  info.D = {0.1, -0.02, 0.01, -0.002};
+  EXPECT_NO_THROW(Camera(info, ImageKind::RAW));
+}
+
 TEST(Camera, emptyD)
 {
   CameraInfo info = cameraInfo();
@@ -165,6 +176,13 @@ TEST(Camera, mistakesAreNamed)
       {[](CameraInfo& info) { info.distortion_model = "equidistant"; }, ImageKind::RAW,
        "D has 5 values: equidistant has 4"},
       {[&](CameraInfo& info) { info.D[1] = nan; }, ImageKind::RAW, "D holds a value that is no number"},
+      {[](CameraInfo& info) { info.D[0] = 1e6; }, ImageKind::RAW, "D is no distortion of a lens"},
+      {[](CameraInfo& info) { info.D[0] = -40; }, ImageKind::RAW, "D is no distortion of a lens"},
+      {[](CameraInfo& info) { info.D[2] = 1e300; }, ImageKind::RAW, "D is no distortion of a lens"},
+      {[](CameraInfo& info) {
+         info.D = {0, 0, 0, -1e8}, info.distortion_model = "equidistant";
+       },
+       ImageKind::RAW, "D is no distortion of a lens: it cannot be undone at pixel ("},
   };
   for (const Mistake& mistake : mistakes)
   {

@@ -91,6 +91,39 @@ void checkDistortion(const CameraInfo& info)
     throw std::invalid_argument("D holds a value that is no number");
   }
 }
+/** Refuses a distortion that cannot be undone in the middle of the image: values in a wrong order, or of another model,
+ * would silently leave no pose. Towards the corners real calibrations may fail so, since no point held them there. */
+void checkUndone(const Camera& camera, const cv::Point2d& principal_point)
+{
+  constexpr double SHARE = 0.1;  // of the width and height, to each side of the principal point
+  constexpr int STEPS = 4;       // to each side
+  constexpr double MAX_OFF = 1;  // px
+  const cv::Size& size = camera.size();
+  std::vector<cv::Point2d> pixels;
+  for (int row = -STEPS; row <= STEPS; ++row)
+  {
+    for (int col = -STEPS; col <= STEPS; ++col)
+    {
+      pixels.push_back(principal_point +
+                       cv::Point2d(size.width * SHARE * col / STEPS, size.height * SHARE * row / STEPS));
+    }
+  }
+  std::vector<cv::Point3d> points;
+  for (const cv::Point2d& ray : camera.normalize(pixels))
+  {
+    points.emplace_back(ray.x, ray.y, 1);
+  }
+  const std::vector<cv::Point2d> again = camera.project(points);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+  {
+    if (!(cv::norm(again[i] - pixels[i]) < MAX_OFF))
+    {
+      throw std::invalid_argument("D is no distortion of a lens: it cannot be undone at pixel (" + words(pixels[i].x) +
+                                  ", " + words(pixels[i].y) + "), near the middle of the image; expected the values " +
+                                  "of a calibration in the order of the model, as k1, k2, p1, p2, k3");
+    }
+  }
+}
 }  // namespace
 
 Camera::Camera(const CameraInfo& info, ImageKind kind) : size_(info.width, info.height)
@@ -113,6 +146,7 @@ Camera::Camera(const CameraInfo& info, ImageKind kind) : size_(info.width, info.
   checkDistortion(info);
   distortion_ = info.D;
   fisheye_ = info.distortion_model == "equidistant" || info.distortion_model == "fisheye";
+  checkUndone(*this, {matrix_(0, 2), matrix_(1, 2)});
 }
 
 const cv::Size& Camera::size() const
