@@ -4,8 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 #include <tuple>
 
 #include "vectorized.h"
@@ -45,7 +44,8 @@ struct Surroundings
   const std::int16_t *slope_above, *slope_below;
 };
 
-/** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes through here. */
+/** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes
+ * through here. */
 OMR_VECTORIZED void respond(const Surroundings& rows, int width, std::int16_t* __restrict response)
 {
   const uchar* __restrict above = rows.above;
@@ -55,52 +55,63 @@ OMR_VECTORIZED void respond(const Surroundings& rows, int width, std::int16_t* _
   const std::int16_t* __restrict slope_below = rows.slope_below;
   for (int x = 1; x < width - 1; ++x)
   {
-    const auto xx = static_cast<std::int16_t>(here[x - 1] + here[x + 1] - 2 * here[x]);
+    const auto xx = static_cast<std::int16_t>(16 * (here[x - 1] + here[x + 1] - 2 * here[x]));  // 16 Ixx
     const auto yy = static_cast<std::int16_t>(above[x] + below[x] - 2 * here[x]);
     const auto xy = static_cast<std::int16_t>(slope_below[x] - slope_above[x]);  // 4 Ixy
-    const int value = (xy * xy - 16 * (xx * yy)) >> 2;
+    const int value = (xy * xy - xx * yy) >> 2;
     response[x] = static_cast<std::int16_t>(std::max(-32768, std::min(32767, value)));
   }
 }
 
-/** The largest of each response and its two neighbours in the row. */
-OMR_VECTORIZED void largestOfThree(const std::int16_t* __restrict response, int width, std::int16_t* __restrict largest)
+constexpr int LANES = 8;
+constexpr int BLOCK = 2 * LANES;  // px side by side: of nine in ten none responds enough
+
+bool anyExceeds(const std::int16_t* response, const cv::v_int16x8& least)
 {
-  for (int x = 1; x < width - 1; ++x)
-  {
-    largest[x] = std::max(std::max(response[x - 1], response[x + 1]), response[x]);
-  }
+  return cv::v_check_any((cv::v_load(response) > least) | (cv::v_load(response + LANES) > least));
 }
 
-/**
- * Which responses exceed the least and are maxima of 3 x 3; of two equal neighbours the first one counts.
- *
- * @param above, below largestOfThree() of those rows.
- */
-OMR_VECTORIZED void markMaxima(const std::int16_t* __restrict response, const std::int16_t* __restrict above,
-                               const std::int16_t* __restrict below, int width, int least, uchar* __restrict marks)
+/** Which of the responses exceed the least and are maxima of 3 x 3, a bit each; of two equal neighbours the first one
+ * counts. */
+unsigned findMaxima(const std::int16_t* above, const std::int16_t* response, const std::int16_t* below,
+                    const cv::v_int16x8& least)
 {
-  const auto threshold = static_cast<std::int16_t>(least);
-  for (int x = MARGIN; x < width - MARGIN; ++x)
-  {
-    const std::int16_t before = std::max(std::max(above[x], response[x - 1]), threshold);
-    const std::int16_t after = std::max(below[x], response[x + 1]);
-    marks[x] = static_cast<uchar>((response[x] > before) & (response[x] >= after));
-  }
+  const auto largest_of_three = [](const std::int16_t* row) {
+    return cv::v_max(cv::v_max(cv::v_load(row - 1), cv::v_load(row + 1)), cv::v_load(row));
+  };
+  const cv::v_int16x8 here = cv::v_load(response);
+  const cv::v_int16x8 before = cv::v_max(cv::v_max(largest_of_three(above), cv::v_load(response - 1)), least);
+  const cv::v_int16x8 after = cv::v_max(largest_of_three(below), cv::v_load(response + 1));
+  const cv::v_int16x8 maxima = (here > before) & (here >= after);
+  return static_cast<unsigned>(cv::v_signmask(cv::v_pack(maxima, maxima))) & 0xffU;
 }
 
-/** Calls the action for every x with a mark, on little-endian machines. @param marks 0 or 1, in whole words */
+/** Responses of three rows, from top to bottom. */
+using Responses = std::array<std::int16_t*, 3>;
+
+/** Calls the action for every x with a maximum in the middle row. @param blocks memory for as many as a row has */
 template <typename Action>
-void forEachMark(const std::vector<uchar>& marks, const Action& action)
+void forEachMaximum(const Responses& responses, int width, int least, std::vector<int>& blocks, const Action& action)
 {
-  constexpr std::size_t WORD = sizeof(std::uint64_t);
-  for (std::size_t first = 0; first < marks.size(); first += WORD)
+  const auto [above, here, below] = responses;
+  const cv::v_int16x8 threshold = cv::v_setall_s16(static_cast<short>(least));
+  const int end = width - MARGIN;
+  // Without a branch: which blocks have one cannot be foreseen.
+  int* next = blocks.data();
+  for (int x = MARGIN; x < end; x += BLOCK)
   {
-    std::uint64_t word;
-    std::memcpy(&word, &marks[first], WORD);
-    for (; word != 0; word &= word - 1)
+    *next = x;
+    next += anyExceeds(here + x, threshold) ? 1 : 0;
+  }
+  for (const int* block = blocks.data(); block != next; ++block)
+  {
+    const int x = *block;
+    const unsigned left = findMaxima(above + x, here + x, below + x, threshold);
+    const unsigned right = findMaxima(above + x + LANES, here + x + LANES, below + x + LANES, threshold);
+    const unsigned inside = (1U << std::min(BLOCK, end - x)) - 1;
+    for (unsigned maxima = (left | right << LANES) & inside; maxima != 0; maxima &= maxima - 1)
     {
-      action(static_cast<int>(first) + __builtin_ctzll(word) / 8);
+      action(x + __builtin_ctz(maxima));
     }
   }
 }
@@ -215,29 +226,27 @@ void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, s
 {
   const int width = grey.cols;
   Candidates candidates(grey, least.range, found);
-  std::vector<std::int16_t> buffer(8 * static_cast<std::size_t>(width), 0);
-  const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * width]; };
+  const int stride = width + BLOCK;  // the last block of a row may end beyond it
+  std::vector<std::int16_t> buffer(6 * static_cast<std::size_t>(stride), 0);
+  const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * stride]; };
+  std::vector<int> blocks(width / BLOCK + 1);
   std::array<std::int16_t*, 3> slopes = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
-  std::array<std::int16_t*, 2> responses = {row_of_buffer(3), row_of_buffer(4)};
-  std::array<std::int16_t*, 3> largest = {row_of_buffer(5), row_of_buffer(6), row_of_buffer(7)};
-  std::vector<uchar> marks((static_cast<std::size_t>(width) + 7) / 8 * 8, 0);
+  Responses responses = {row_of_buffer(3), row_of_buffer(4), row_of_buffer(5)};
   findSlopes(grey.ptr<uchar>(from - 2), width, slopes[1]);
   findSlopes(grey.ptr<uchar>(from - 1), width, slopes[2]);
   for (int y = from - 1; y <= to; ++y)
   {
-    std::swap(responses[0], responses[1]);
+    std::rotate(responses.begin(), responses.begin() + 1, responses.end());
     std::rotate(slopes.begin(), slopes.begin() + 1, slopes.end());
-    std::rotate(largest.begin(), largest.begin() + 1, largest.end());
     findSlopes(grey.ptr<uchar>(y + 1), width, slopes[2]);
     respond({grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), slopes[0], slopes[2]}, width,
-            responses[1]);
-    largestOfThree(responses[1], width, largest[2]);
-    if (y < from + 1)
+            responses[2]);
+    if (y > from)
     {
-      continue;
+      forEachMaximum(responses, width, least.response, blocks, [&](int x) {
+        candidates.add(responses[1][x], {x, y - 1});
+      });
     }
-    markMaxima(responses[0], largest[0], largest[2], width, least.response, marks.data());
-    forEachMark(marks, [&](int x) { candidates.add(responses[0][x], {x, y - 1}); });
   }
   candidates.judge();
 }
