@@ -151,23 +151,32 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
     lanes[b] = (1U << end) - (1U << first);
     next = BLOCKS[b] + LANES;
   }
+  // Those with a pixel that reaches the threshold, listed without a branch: which they are cannot be foreseen.
+  struct Block
+  {
+    int row;
+    std::uint32_t index;
+  };
+  std::array<Block, SIDE * BLOCKS.size() + 1> strong;
+  std::size_t count = 0;
   for (int i = area.y; i < area.y + area.height; ++i)
   {
-    for (std::size_t b = 0; b < BLOCKS.size(); ++b)
+    for (std::uint32_t b = 0; b < BLOCKS.size(); ++b)
     {
-      const int block = BLOCKS[b];
-      if (!anyReaches(&tile.magnitude[i][block], threshold))
-      {
-        continue;
-      }
-      Neighbours neighbours;
-      compare(tile, i, block, threshold, neighbours);
-      for (unsigned edgels = edgelsOf(neighbours) & lanes[b]; edgels != 0; edgels &= edgels - 1)
-      {
-        const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
-        const int j = block + static_cast<int>(lane);
-        buffer.add(tile, origin, i, j, neighbours, lane);
-      }
+      strong[count] = {i, b};
+      count += anyReaches(&tile.magnitude[i][BLOCKS[b]], threshold) ? 1 : 0;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const int i = strong[k].row;
+    const int block = BLOCKS[strong[k].index];
+    Neighbours neighbours;
+    compare(tile, i, block, threshold, neighbours);
+    for (unsigned edgels = edgelsOf(neighbours) & lanes[strong[k].index]; edgels != 0; edgels &= edgels - 1)
+    {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
+      buffer.add(tile, origin, i, block + static_cast<int>(lane), neighbours, lane);
     }
   }
 }
