@@ -10,27 +10,22 @@ namespace omr
 {
 namespace
 {
-constexpr float MIN_COSINE = .85F;        // between the normals of neighbours along an edge
-constexpr float MAX_ACROSS = .8F;         // of a step, off the tangent [px]
-constexpr float MIN_ALONG = .3F;          // of a step [px]
-constexpr int PADDING = PixelSet::REACH;  // around the image: a step over a gap is as long at most [px]
-constexpr std::size_t FIRM_CHAIN = 3;     // edgels on one side: from so many on, a gap is crossed
-constexpr std::size_t MIN_CHAIN = 10;     // edgels
+constexpr float MIN_COSINE = .85F;     // between the normals of neighbours along an edge
+constexpr float MAX_ACROSS = .8F;      // of a step, off the tangent [px]
+constexpr float MIN_ALONG = .3F;       // of a step [px]
+constexpr std::size_t FIRM_CHAIN = 3;  // edgels on one side: from so many on, a gap is crossed
+constexpr std::size_t MIN_CHAIN = 10;  // edgels
 
 class Tracer
 {
  public:
   Tracer(const std::vector<Edgel>& edgels, const cv::Size& size)
-      : edgels_(edgels),
-        stride_(size.width + 2 * PADDING),
-        index_(static_cast<std::size_t>(stride_) * (size.height + 2 * PADDING)),
-        free_(size),
-        visited_(edgels.size(), 0)
+      : edgels_(edgels), index_(size), free_(size), visited_(edgels.size(), 0)
   {
     for (std::size_t i = 0; i < edgels.size(); ++i)
     {
       const cv::Point pixel = pixelOf(edgels[i]);
-      index_[cellOf(pixel)] = static_cast<int>(i) + 1;
+      index_(pixel) = static_cast<int>(i);
       free_.set(pixel);
     }
   }
@@ -69,18 +64,13 @@ class Tracer
     return {cvRound(edgel.x), cvRound(edgel.y)};
   }
 
-  std::size_t cellOf(const cv::Point& pixel) const
-  {
-    return static_cast<std::size_t>(pixel.y + PADDING) * stride_ + pixel.x + PADDING;
-  }
-
   /** An edgel is on one chain only. */
   void leave(const Edgel& edgel)
   {
     const auto i = static_cast<int>(&edgel - edgels_.data());
     visited_[i] = 1;
     const cv::Point pixel = pixelOf(edgel);
-    if (index_[cellOf(pixel)] == i + 1)
+    if (index_(pixel) == i)
     {
       free_.reset(pixel);
     }
@@ -89,17 +79,19 @@ class Tracer
   void follow(const Edgel& start, cv::Point2f direction, std::vector<const Edgel*>& chain)
   {
     const Edgel* here = &start;
+    std::uint32_t around = free_.around(pixelOf(start));
     while (true)
     {
-      const Edgel* next = successor(*here, direction, PixelSet::NEAREST);
+      const Edgel* next = successor(*here, direction, around & PixelSet::NEAREST);
       if (next == nullptr && chain.size() >= FIRM_CHAIN)
       {
-        next = successor(*here, direction, ~PixelSet::NEAREST);
+        next = successor(*here, direction, around & ~PixelSet::NEAREST);
       }
       if (next == nullptr)
       {
         return;
       }
+      around = free_.around(pixelOf(*next));  // before it changes: the processor waits for what was just written
       leave(*next);
       chain.push_back(next);
       const cv::Point2f tangent(-next->ny, next->nx);
@@ -108,40 +100,35 @@ class Tracer
     }
   }
 
-  /** The next edgel along the edge: ahead in one of the pixels around. */
+  /** The next edgel along the edge: ahead in one of the pixels around. Hardly a branch: none could be foreseen. */
   const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
   {
     const cv::Point pixel = pixelOf(here);
     const Edgel* best = nullptr;
     float best_cost = std::numeric_limits<float>::infinity();
-    for (std::uint32_t bits = free_.around(pixel) & pixels; bits != 0; bits &= bits - 1)
+    for (; pixels != 0; pixels &= pixels - 1)
     {
-      const int bit = __builtin_ctz(bits);
+      const int bit = __builtin_ctz(pixels);
       const cv::Point offset(bit % PixelSet::SIDE - PixelSet::REACH, bit / PixelSet::SIDE - PixelSet::REACH);
-      if (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y <= 0)
-      {
-        continue;
-      }
-      const Edgel& edgel = edgels_[index_[cellOf(pixel + offset)] - 1];
+      const Edgel& edgel = edgels_[index_(pixel + offset)];
       const float step_x = edgel.x - here.x;
       const float step_y = edgel.y - here.y;
       const float along = step_x * direction.x + step_y * direction.y;
       const float across = std::abs(step_x * here.nx + step_y * here.ny);
       const float cost = across + .5F * along;
-      if (along > MIN_ALONG && across < MAX_ACROSS && across < along && cost < best_cost &&
-          std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE)
-      {
-        best_cost = cost;
-        best = &edgel;
-      }
+      const bool is_next =
+          (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y > 0) &
+          (along > MIN_ALONG) & (across < MAX_ACROSS) & (across < along) & (cost < best_cost) &
+          (std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE);
+      best_cost = is_next ? cost : best_cost;
+      best = is_next ? &edgel : best;
     }
     return best;
   }
 
   const std::vector<Edgel>& edgels_;
-  int stride_;
-  std::vector<int> index_;  // of the edgel in each pixel, from 1; with a border
-  PixelSet free_;           // pixels whose edgel is on no chain yet
+  cv::Mat1i index_;  // of the edgel in each pixel that has one
+  PixelSet free_;    // pixels whose edgel is on no chain yet
   std::vector<char> visited_;
 };
 
