@@ -103,14 +103,15 @@ class FrameSearch
   {
   }
 
-  /** @return whether a frame was found. */
-  bool add(const cv::Point2f& u, const cv::Point2f& v, Seed& seed)
+  /** @param is_frame whether these steps are one; else nothing is added. @return whether a frame was found. */
+  bool add(const cv::Point2f& u, const cv::Point2f& v, bool is_frame, Seed& seed)
   {
     steps_.ux[count_] = u.x;
     steps_.uy[count_] = u.y;
     steps_.vx[count_] = v.x;
     steps_.vy[count_] = v.y;
-    return ++count_ == Steps::SIZE && judge(seed);
+    count_ += is_frame ? 1 : 0;  // without a branch: it could not be foreseen
+    return count_ == Steps::SIZE && judge(seed);
   }
 
   /** Looks at those added since the last look. */
@@ -158,8 +159,9 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
       const cv::Point2f first = neighbours[a].offset;
       const cv::Point2f second = neighbours[b].offset;
       const float area = cross(first, second);
-      if (std::abs(area) >= MIN_SINE * distances[a] * distances[b] &&
-          (area < 0 ? search.add(second, first, seed) : search.add(first, second, seed)))
+      const bool is_right_handed = area >= 0;
+      if (search.add(is_right_handed ? first : second, is_right_handed ? second : first,
+                     std::abs(area) >= MIN_SINE * distances[a] * distances[b], seed))
       {
         return true;
       }
