@@ -68,6 +68,24 @@ TEST(RadialEdgels, areThoseWhoseGradientIsRadial)
   EXPECT_GT(radial.size(), 300U);
 }
 
+TEST(RadialEdgels, tilesBeyondTheCircleAreNotLookedAt)
+{
+  constexpr double REACH = 150;
+  TargetScene scene;
+  scene.noise = 6;
+  const cv::Mat image = renderTarget(scene);
+  omr::EdgelMap map(image);
+  const omr::RingFamily family = tiltedFamily();
+  std::vector<omr::RadialEdgel> radial;
+  omr::collectRadialEdgels(map, family, REACH, .9, radial);
+  omr::EdgelMap box(image);
+  const cv::Point2d half = family.halfBox(REACH);
+  const cv::Point2d from = family.center - half;
+  const cv::Point2d to = family.center + half;
+  box.visit(from.x, from.y, to.x, to.y, [](const omr::Edgel&) {});
+  EXPECT_LT(static_cast<double>(map.looks()), .92 * static_cast<double>(box.looks()));
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -241,6 +241,11 @@ cv::Rect EdgelMap::tilesOf(double left, double top, double right, double bottom)
   return {x0, y0, index(right + 1, shared_->grid.width) - x0 + 1, index(bottom + 1, shared_->grid.height) - y0 + 1};
 }
 
+cv::Rect2d EdgelMap::areaOf(int col, int row)
+{
+  return {col * TILE - 1., row * TILE - 1., TILE + 1., TILE + 1.};
+}
+
 const EdgelTile& EdgelMap::tile(int col, int row)
 {
   const std::size_t index = static_cast<std::size_t>(row) * shared_->grid.width + col;

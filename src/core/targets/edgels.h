@@ -157,9 +157,24 @@ class EdgelMap
       // Shifted from row to row, so that upright edges are met as well.
       for (int col = tiles.x + (row / row_step) % col_step; col < tiles.x + tiles.width; col += col_step)
       {
-        const EdgelTile& edgels = tile(col, row);
-        looks_ += edgels.size();
-        visitor(edgels);
+        visitTile(col, row, visitor);
+      }
+    }
+  }
+
+  /** The same, without the tiles that are not wanted. @param isWanted(const cv::Rect2d&) where a tile's edgels lie */
+  template <typename IsWanted, typename Visitor>
+  void visitWanted(double left, double top, double right, double bottom, const IsWanted& isWanted, Visitor&& visitor)
+  {
+    const cv::Rect tiles = tilesOf(left, top, right, bottom);
+    for (int row = tiles.y; row < tiles.y + tiles.height; ++row)
+    {
+      for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
+      {
+        if (isWanted(areaOf(col, row)))
+        {
+          visitTile(col, row, visitor);
+        }
       }
     }
   }
@@ -182,7 +197,16 @@ class EdgelMap
     std::array<std::mutex, 16> locks;  // a tile has one of them while it is computed
   };
 
+  template <typename Visitor>
+  void visitTile(int col, int row, Visitor&& visitor)
+  {
+    const EdgelTile& edgels = tile(col, row);
+    looks_ += edgels.size();
+    visitor(edgels);
+  }
+
   cv::Rect tilesOf(double left, double top, double right, double bottom) const;
+  static cv::Rect2d areaOf(int col, int row);
   const EdgelTile& tile(int col, int row);
   void compute(int col, int row, EdgelTile& edgels) const;
 

@@ -128,6 +128,23 @@ AngleBins binsAt(float degrees, double radius)
   return turn == 0 ? run : run << turn | run >> (ANGLE_BINS - turn);
 }
 
+/** Whether the area lies beyond the circle: every third tile of a box around one does. */
+bool liesBeyond(const RingFamily& family, double radius, const cv::Rect2d& area)
+{
+  if (family.isBent())
+  {
+    return false;
+  }
+  // The circle's image is convex: the gradient at a corner beyond it is the normal of a line that lies between.
+  const cv::Point2d to_middle = family.radiusGradient(family.toPlane((area.tl() + area.br()) / 2));
+  const cv::Point2d corner(to_middle.x > 0 ? area.x : area.br().x, to_middle.y > 0 ? area.y : area.br().y);
+  const cv::Point2d q = family.toPlane(corner);
+  const double squared = q.dot(q);
+  const double horizon = squared * (family.hx * family.hx + family.hy * family.hy);  // is convex before
+  const cv::Point2d gradient = family.radiusGradient(q);
+  return squared > radius * radius && horizon < 1 && gradient.x * to_middle.x >= 0 && gradient.y * to_middle.y >= 0;
+}
+
 int count(AngleBins bins)
 {
   return __builtin_popcountll(bins);
@@ -150,7 +167,8 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
       family, top_left, bottom_right, MIN_RADIUS * MIN_RADIUS, max_radius * max_radius, min_cosine * min_cosine};
   const auto test_edgels = family.isBent() ? testBentEdgels : testEdgels;
   RadialChunk chunk;
-  map.visitTiles(top_left.x, top_left.y, bottom_right.x, bottom_right.y, [&](const EdgelTile& tile) {
+  const auto may_reach = [&](const cv::Rect2d& area) { return !liesBeyond(family, max_radius, area); };
+  map.visitWanted(top_left.x, top_left.y, bottom_right.x, bottom_right.y, may_reach, [&](const EdgelTile& tile) {
     for (std::size_t first = 0; first < tile.size(); first += CHUNK)
     {
       const float* x = tile.x() + first;
