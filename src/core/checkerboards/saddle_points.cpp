@@ -44,8 +44,7 @@ struct Surroundings
   const std::int16_t *slope_above, *slope_below;
 };
 
-/** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes
- * through here. */
+/** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes through here. */
 OMR_VECTORIZED void respond(const Surroundings& rows, int width, std::int16_t* __restrict response)
 {
   const uchar* __restrict above = rows.above;
