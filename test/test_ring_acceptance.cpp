@@ -29,6 +29,27 @@ TEST(RingAcceptance, threeHalfHiddenRingsFitCloserThanMany)
   EXPECT_TRUE(omr::isTarget(halfHidden(3, .13), 3));
 }
 
+TEST(RingAcceptance, manyTurnsOutweighFewDirections)
+{
+  const auto shown = [](omr::AngleBins bins, std::size_t count, double rms) {
+    omr::Boundary boundary;
+    boundary.coherence = 1;
+    boundary.agreeing = boundary.supported = bins;
+    omr::RingCandidate candidate = halfHidden(count, rms);
+    candidate.visible = omr::share(bins);
+    candidate.boundaries.assign(count, boundary);
+    return candidate;
+  };
+  const omr::AngleBins spread = 0x0FFFFF000FFFFF00;  // 40 of 64
+  const omr::AngleBins half = 0x0000000FFFFFFFFF;    // 36 of 64, on one side
+  EXPECT_FALSE(omr::isClearTarget(shown(spread, 5, .1), 3));
+  EXPECT_TRUE(omr::isTarget(shown(spread, 5, .1), 3));
+  EXPECT_FALSE(omr::isTarget(shown(spread, 5, .2), 3));
+  EXPECT_TRUE(omr::isTarget(shown(spread, 3, .06), 3));
+  EXPECT_FALSE(omr::isTarget(shown(spread, 3, .1), 3));
+  EXPECT_FALSE(omr::isTarget(shown(half, 5, .06), 3)) << "an arch";
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -50,6 +50,21 @@ TEST(HiddenTargets, barsOverHalfOfTheRings)
   }
 }
 
+TEST(HiddenTargets, ringsAreReadWhereAThirdOfAStrongBoundaryShows)
+{
+  TargetScene scene;
+  for (const std::string colors : {"BWRWP", "GWGWP"})
+  {
+    scene.colors = colors;
+    cv::Mat image = renderTarget(scene);
+    drawBar(image, {25, 0}, 90, 30, {90, 150, 190});
+    drawBar(image, {-40, 0}, 70, 14, {60, 130, 70});
+    const std::vector<Target> targets = findTargetsIn(image);
+    ASSERT_EQ(1U, targets.size()) << colors;
+    EXPECT_EQ(colors, targets[0].colors);
+  }
+}
+
 TEST(HiddenTargets, theSidesOfASquareAreNoRing)
 {
   // The sheet's sides touch a circle that resembles another ring.

@@ -221,7 +221,7 @@ void tryOpenDirections(EdgelMap& map, const cv::Mat& bgr, const Rings& start, Ri
 bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
 {
   const Rings start = candidate.rings;
-  if (completeOpen(map, bgr, candidate) && isTarget(candidate, OPEN_RINGS))
+  if (completeOpen(map, bgr, candidate) && isClearTarget(candidate, OPEN_RINGS))
   {
     return true;
   }

@@ -47,7 +47,10 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
                    RingCandidate& candidate);
 
-/** Whether the evidence is such as clutter does not give. */
+/** Whether the evidence is such as clutter does not give, in nearly all directions or all around in the open ones. */
+bool isClearTarget(const RingCandidate& candidate, int min_rings);
+
+/** The same, or so much shows that it does not matter in how many directions. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
 
 /** Whether isTarget() may be true of rings that were settled in some directions only. */

@@ -21,6 +21,10 @@ constexpr double MIN_CONTRAST = .12;  // of the logarithms
 
 constexpr double READABLE_COHERENCE = .8;
 constexpr double MIN_READABLE = .5;  // agreement that tells the colours of its rings: below it glare is read
+// What hides a strong step leaves the rest as it is: in "occlusion" 133 instead of 130 of 141 letters are read, all
+// right. Where such a step is not read it shows in .09 of the directions and less.
+constexpr double STRONG_CONTRAST = .5;
+constexpr double STRONG_READABLE = .3;  // share of the directions
 constexpr double MOSTLY_HIDDEN =
     .75;  // a disk's outline agrees in fewer directions: what covers it may hide rings entirely
 constexpr double MERGING_WIDTH = 4.5;  // narrower rings of similar brightness merge [px]
@@ -61,6 +65,14 @@ int ringsWithin(const std::vector<double>& radii, std::size_t ring)
   const int count = static_cast<int>(std::lround(ratio));
   return std::abs(ratio - count) < TOLERANCE * count && count <= MOST_RINGS ? count : 1;
 }
+
+/** Whether enough of a boundary shows to tell the colours of its rings: less of a strong step, which no gloss veils. */
+bool isReadable(const Boundary& boundary)
+{
+  return boundary.agreement > MIN_READABLE ||
+         (boundary.contrast > STRONG_CONTRAST && share(boundary.agreeing & boundary.supported) > STRONG_READABLE);
+}
+
 bool isThere(const Boundary& boundary)
 {
   return boundary.contrast > MIN_CONTRAST && boundary.coherence > MIN_COHERENCE &&
@@ -97,8 +109,8 @@ void addHiddenBoundaries(const RingProfile& profile, const AngularSupport& suppo
     {
       hidden.push_back(measureBoundary(profile, support, measured, ring + i));
       all_shown = all_shown && isThere(hidden.back());
-      hidden.back().shown = isThere(hidden.back()) && hidden.back().agreement > MIN_READABLE &&
-                            hidden.back().coherence > READABLE_COHERENCE;
+      hidden.back().shown =
+          isThere(hidden.back()) && isReadable(hidden.back()) && hidden.back().coherence > READABLE_COHERENCE;
     }
     const double width = (radii[ring] - (ring > 0 ? radii[ring - 1] : 0)) / count;
     if (all_shown || (ring == 0 && boundaries[0].agreement < MOSTLY_HIDDEN) || width < MERGING_WIDTH)
@@ -149,7 +161,7 @@ void addPartialBoundaries(const RingProfile& profile, const AngularSupport& supp
     const std::vector<double> known = radiiOf(boundaries);
     const auto k = std::lower_bound(known.begin(), known.end(), best_boundary.radius) - known.begin();
     const double scale = radii[k] / known[k];
-    best_boundary.shown = best_boundary.agreement > MIN_READABLE;
+    best_boundary.shown = isReadable(best_boundary);
     boundaries.insert(boundaries.begin() + k, best_boundary);
     radii.insert(radii.begin() + k, best_boundary.radius * scale);
   }
