@@ -160,6 +160,8 @@ std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size)
     }
   });
   std::vector<EdgeArc> arcs;
+  arcs.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t{0},
+                               [](std::size_t sum, const auto& part) { return sum + part.size(); }));
   int chain = 0;  // the last one so far
   for (std::vector<EdgeArc>& part : parts)
   {

@@ -33,6 +33,7 @@ class Tracer
   Chains chains()
   {
     Chains chains;
+    chains.edgels.reserve(edgels_.size());
     std::vector<const Edgel*> forward;
     std::vector<const Edgel*> backward;
     for (std::size_t i = 0; i < edgels_.size(); ++i)
@@ -137,7 +138,10 @@ class Tracer
 std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size)
 {
   map.computeAll();
+  std::size_t count = 0;
+  map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) { count += tile.size(); });
   std::vector<Edgel> edgels;
+  edgels.reserve(count);  // that memory grows takes longer than the edgels do
   map.visit(0, 0, size.width - 1, size.height - 1, [&](const Edgel& edgel) { edgels.push_back(edgel); });
   return edgels;
 }
