@@ -151,33 +151,43 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
     lanes[b] = (1U << end) - (1U << first);
     next = BLOCKS[b] + LANES;
   }
-  // Those with a pixel that reaches the threshold, listed without a branch: which they are cannot be foreseen.
+  // Listed without branches, which could not be foreseen: blocks with a pixel that reaches the threshold, their edgels.
+  constexpr std::size_t MOST = SIDE * BLOCKS.size();
   struct Block
   {
     int row;
     std::uint32_t index;
   };
-  std::array<Block, SIDE * BLOCKS.size() + 1> strong;
-  std::size_t count = 0;
+  std::array<Block, MOST + 1> strong;
+  std::size_t strong_count = 0;
   for (int i = area.y; i < area.y + area.height; ++i)
   {
     for (std::uint32_t b = 0; b < BLOCKS.size(); ++b)
     {
-      strong[count] = {i, b};
-      count += anyReaches(&tile.magnitude[i][BLOCKS[b]], threshold) ? 1 : 0;
+      strong[strong_count] = {i, b};
+      strong_count += anyReaches(&tile.magnitude[i][BLOCKS[b]], threshold) ? 1 : 0;
     }
   }
-  for (std::size_t k = 0; k < count; ++k)
+  std::array<Neighbours, MOST> neighbours;
+  std::array<std::uint16_t, MOST * LANES + 1> edgels;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < strong_count; ++k)
   {
-    const int i = strong[k].row;
-    const int block = BLOCKS[strong[k].index];
-    Neighbours neighbours;
-    compare(tile, i, block, threshold, neighbours);
-    for (unsigned edgels = edgelsOf(neighbours) & lanes[strong[k].index]; edgels != 0; edgels &= edgels - 1)
+    const std::uint32_t b = strong[k].index;
+    compare(tile, strong[k].row, BLOCKS[b], threshold, neighbours[k]);
+    const unsigned found = edgelsOf(neighbours[k]) & lanes[b];
+    for (unsigned lane = 0; lane < LANES; ++lane)
     {
-      const auto lane = static_cast<unsigned>(__builtin_ctz(edgels));
-      buffer.add(tile, origin, i, block + static_cast<int>(lane), neighbours, lane);
+      edgels[count] = static_cast<std::uint16_t>(k * LANES + lane);
+      count += found >> lane & 1U;
     }
+  }
+  for (std::size_t e = 0; e < count; ++e)
+  {
+    const Block& block = strong[edgels[e] / LANES];
+    const unsigned lane = edgels[e] % LANES;
+    buffer.add(tile, origin, block.row, BLOCKS[block.index] + static_cast<int>(lane), neighbours[edgels[e] / LANES],
+               lane);
   }
 }
 
