@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "edgel_family.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -68,41 +69,79 @@ bool isStraight(const std::vector<Edgel>& edgels)
   return held > MAX_STRAIGHT * static_cast<double>(edgels.size());
 }
 
+/** Edgels that vote, each of their values side by side. */
+struct Voters
+{
+  explicit Voters(const std::vector<Edgel>& edgels) : size(edgels.size())
+  {
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      x[i] = edgels[i].x;
+      y[i] = edgels[i].y;
+      nx[i] = edgels[i].nx;
+      ny[i] = edgels[i].ny;
+    }
+  }
+
+  std::size_t size;
+  std::array<double, MAX_EDGELS> x, y, nx, ny;
+};
+
 /** Votes for a family: inliers, weighted by the root of the share of directions that they cover. */
 struct Votes
 {
-  int inliers = 0;
-  unsigned sectors = 0;
-
-  void add(const RingFamily& family, const Edgel& edgel)
-  {
-    int sector = 0;
-    if (sineToRadius(family, edgel, sector) < MAX_SINE)
-    {
-      ++inliers;
-      sectors |= 1U << sector;
-    }
-  }
+  std::int64_t inliers = 0;
+  std::int64_t sectors = 0;
 
   double score() const
   {
-    return inliers * std::sqrt(__builtin_popcount(sectors) / 16.);
+    return static_cast<double>(inliers) * std::sqrt(__builtin_popcount(static_cast<unsigned>(sectors)) / 16.);
   }
 };
 
-Votes countVotes(const RingFamily& family, const std::vector<Edgel>& edgels, const Votes& best)
+/** Adds the votes of the voters [from, to): of those whose gradient runs along the family's radius. */
+OMR_VECTORIZED void addVotes(const RingFamily& family, const Voters& voters, std::size_t from, std::size_t to,
+                             Votes& votes)
+{
+  const cv::Point2d center = family.center;
+  const double a = family.a;
+  const double b = family.b;
+  const double d = family.d;
+  std::int64_t inliers = 0;
+  std::int64_t sectors = 0;
+  for (std::size_t i = from; i < to; ++i)
+  {
+    const double x = voters.x[i] - center.x;
+    const double y = voters.y[i] - center.y;
+    const double qx = d * x - b * y;
+    const double qy = a * y - b * x;
+    const double gx = d * qx - b * qy;
+    const double gy = a * qy - b * qx;
+    const double ax = std::abs(qx);
+    const double ay = std::abs(qy);
+    // One of sixteen directions.
+    const bool is_diagonal = (ax < ay ? ax : ay) > .414 * (ax < ay ? ay : ax);
+    const std::int64_t sector = (qx > 0 ? 1 : 0) + (qy > 0 ? 2 : 0) + (ax > ay ? 4 : 0) + (is_diagonal ? 8 : 0);
+    const double across = voters.nx[i] * gy - voters.ny[i] * gx;
+    const std::int64_t is_inlier = across * across < MAX_SINE * MAX_SINE * (gx * gx + gy * gy) ? 1 : 0;
+    inliers += is_inlier;
+    sectors |= is_inlier << sector;
+  }
+  votes.inliers += inliers;
+  votes.sectors |= sectors;
+}
+
+Votes countVotes(const RingFamily& family, const Voters& voters, const Votes& best)
 {
   Votes votes;
-  const std::size_t preview = edgels.size() / 4;
-  for (std::size_t i = 0; i < edgels.size(); ++i)
+  const std::size_t preview = voters.size / 4;
+  addVotes(family, voters, 0, preview, votes);
+  // A family that does far worse on the first quarter will not win.
+  if (votes.inliers < best.inliers / 8)
   {
-    // A family that does far worse on the first quarter will not win.
-    if (i == preview && votes.inliers < best.inliers / 8)
-    {
-      return {};
-    }
-    votes.add(family, edgels[i]);
+    return {};
   }
+  addVotes(family, voters, preview, voters.size, votes);
   return votes;
 }
 }  // namespace
@@ -145,6 +184,7 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& vot
     }
     voters.resize(MAX_EDGELS);
   }
+  const Voters side_by_side(voters);
   const cv::Point2d origin(piece.box.x + (piece.box.width - 1) / 2., piece.box.y + (piece.box.height - 1) / 2.);
   const double scale = side / 2 + 1;
   const double farthest = side * 2.5 + 10;
@@ -160,13 +200,13 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& vot
     RingFamily family;
     if (familyOf(drawn, origin, scale, family) && cv::norm(family.center - origin) < farthest)
     {
-      const Votes support = countVotes(family, voters, best);
+      const Votes support = countVotes(family, side_by_side, best);
       if (support.score() > best.score())
       {
         best = support;
         seed.family = family;
         // Enough to have drawn four inliers once with a probability of 95 %.
-        const double share = support.inliers / static_cast<double>(voters.size());
+        const double share = static_cast<double>(support.inliers) / static_cast<double>(voters.size());
         const double needed = std::log(.05) / std::log(1 - std::min(.99, share * share * share * share));
         draws = static_cast<int>(std::clamp<double>(needed, MIN_DRAWS, MAX_DRAWS));
       }

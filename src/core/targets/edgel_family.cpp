@@ -88,6 +88,17 @@ bool nullVector(std::array<Row, 4>& rows, Row& solution)
   }
   return true;
 }
+/** Sine of the angle between an edgel's gradient and the family's radius. */
+double sineToRadius(const RingFamily& family, const Edgel& edgel)
+{
+  const double x = edgel.x - family.center.x;
+  const double y = edgel.y - family.center.y;
+  const double qx = family.d * x - family.b * y;
+  const double qy = family.a * y - family.b * x;
+  const double gx = family.d * qx - family.b * qy;
+  const double gy = family.a * qy - family.b * qx;
+  return std::abs(edgel.nx * gy - edgel.ny * gx) / std::max(1e-9, std::sqrt(gx * gx + gy * gy));
+}
 }  // namespace
 
 bool familyOf(const std::array<Edgel, 4>& edgels, const cv::Point2d& origin, double scale, RingFamily& family)
@@ -99,27 +110,12 @@ bool familyOf(const std::array<Edgel, 4>& edgels, const cv::Point2d& origin, dou
   return nullVector(rows, solution) && toFamily(solution, origin, scale, family);
 }
 
-double sineToRadius(const RingFamily& family, const Edgel& edgel, int& sector)
-{
-  const double x = edgel.x - family.center.x;
-  const double y = edgel.y - family.center.y;
-  const double qx = family.d * x - family.b * y;
-  const double qy = family.a * y - family.b * x;
-  const double gx = family.d * qx - family.b * qy;
-  const double gy = family.a * qy - family.b * qx;
-  sector = (qx > 0 ? 1 : 0) + (qy > 0 ? 2 : 0) + (std::abs(qx) > std::abs(qy) ? 4 : 0);
-  const double minor = std::min(std::abs(qx), std::abs(qy));
-  sector += minor > .414 * std::max(std::abs(qx), std::abs(qy)) ? 8 : 0;
-  return std::abs(edgel.nx * gy - edgel.ny * gx) / std::max(1e-9, std::sqrt(gx * gx + gy * gy));
-}
-
 bool refineFamilyShape(const std::vector<Edgel>& edgels, const cv::Point2d& origin, double scale, RingFamily& family)
 {
   cv::Matx<double, 5, 5> normal = cv::Matx<double, 5, 5>::zeros();
   for (const Edgel& edgel : edgels)
   {
-    int sector = 0;
-    const double t = sineToRadius(family, edgel, sector) / MAX_SINE;
+    const double t = sineToRadius(family, edgel) / MAX_SINE;
     if (t < 1)
     {
       const Row row = equation(edgel, origin, scale);

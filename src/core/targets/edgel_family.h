@@ -20,10 +20,6 @@ constexpr double MAX_SINE = .1;  ///< between an edgel's gradient and the radius
  */
 bool familyOf(const std::array<Edgel, 4>& edgels, const cv::Point2d& origin, double scale, RingFamily& family);
 
-/** Sine of the angle between an edgel's gradient and the family's radius. @param sector receives one of 16 directions
- */
-double sineToRadius(const RingFamily& family, const Edgel& edgel, int& sector);
-
 /** Weighted least squares over the edgels that fit the family already; parameters and result of familyOf(). */
 bool refineFamilyShape(const std::vector<Edgel>& edgels, const cv::Point2d& origin, double scale, RingFamily& family);
 

@@ -125,7 +125,7 @@ AngleBins binsAt(float degrees, double radius)
   const int last = static_cast<int>(angle + half + ANGLE_BINS);
   const AngleBins run = (AngleBins{2} << (last - first)) - 1;
   const int turn = first % ANGLE_BINS;
-  return turn == 0 ? run : run << turn | run >> (ANGLE_BINS - turn);
+  return run << turn | run >> (-turn & (ANGLE_BINS - 1));
 }
 
 /** Whether the area lies beyond the circle: every third tile of a box around one does. */
@@ -175,13 +175,19 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
       const float* y = tile.y() + first;
       const std::size_t size = std::min(CHUNK, tile.size() - first);
       test_edgels(test, x, y, tile.nx() + first, tile.ny() + first, size, chunk);
+      // Listed without a branch: which they are cannot be foreseen.
+      std::array<std::size_t, CHUNK + 1> radial;
+      std::size_t count = 0;
       for (std::size_t i = 0; i < size; ++i)
       {
-        if (chunk.is_radial[i] != 0)
-        {
-          edgels.push_back({cv::Point2f(x[i], y[i]), chunk.radius[i], chunk.brighter_outside[i] != 0,
-                            binsAt(chunk.angle[i], chunk.radius[i])});
-        }
+        radial[count] = i;
+        count += chunk.is_radial[i] != 0 ? 1 : 0;
+      }
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        const std::size_t i = radial[k];
+        edgels.push_back({cv::Point2f(x[i], y[i]), chunk.radius[i], chunk.brighter_outside[i] != 0,
+                          binsAt(chunk.angle[i], chunk.radius[i])});
       }
     }
   });
