@@ -32,7 +32,7 @@ bool toFamily(Row solution, const cv::Point2d& origin, double scale, RingFamily&
   const double s12 = solution[1];
   const double s22 = solution[2];
   const double det = s11 * s22 - s12 * s12;
-  if (!(det > 1e-12))
+  if (!(det > 1e-12 * solution.dot(solution)))
   {
     return false;
   }
@@ -42,52 +42,33 @@ bool toFamily(Row solution, const cv::Point2d& origin, double scale, RingFamily&
          family.aspect() < MAX_ASPECT;
 }
 
-/** The vector that four equations leave free. */
-bool nullVector(std::array<Row, 4>& rows, Row& solution)
+/** Determinants of two columns of two rows. */
+std::array<std::array<double, 5>, 5> minorsOf(const Row& top, const Row& bottom)
 {
-  std::array<int, 4> pivots{};
-  std::array<bool, 5> used{};
-  for (int i = 0; i < 4; ++i)
+  std::array<std::array<double, 5>, 5> minors{};
+  for (int i = 0; i < 5; ++i)
   {
-    int best_row = -1;
-    int best_col = -1;
-    double largest = 1e-9;
-    for (int row = i; row < 4; ++row)
+    for (int j = i + 1; j < 5; ++j)
     {
-      for (int col = 0; col < 5; ++col)
-      {
-        if (!used[col] && std::abs(rows[row][col]) > largest)
-        {
-          largest = std::abs(rows[row][col]);
-          best_row = row;
-          best_col = col;
-        }
-      }
-    }
-    if (best_row < 0)
-    {
-      return false;
-    }
-    std::swap(rows[i], rows[best_row]);
-    used[best_col] = true;
-    pivots[i] = best_col;
-    rows[i] *= 1 / rows[i][best_col];
-    for (int row = 0; row < 4; ++row)
-    {
-      if (row != i)
-      {
-        rows[row] -= rows[row][best_col] * rows[i];
-      }
+      minors[i][j] = top[i] * bottom[j] - top[j] * bottom[i];
     }
   }
-  const int free = static_cast<int>(std::find(used.begin(), used.end(), false) - used.begin());
-  solution[free] = 1;
-  for (int i = 0; i < 4; ++i)
-  {
-    solution[pivots[i]] = -rows[i][free];
-  }
-  return true;
+  return minors;
 }
+
+/** The vector that four equations leave free: the determinants of four of the five columns, with signs in turn. */
+Row nullVector(const std::array<Row, 4>& rows)
+{
+  const auto upper = minorsOf(rows[0], rows[1]);
+  const auto lower = minorsOf(rows[2], rows[3]);
+  const auto determinant = [&](int i, int j, int k, int l) {
+    return upper[i][j] * lower[k][l] - upper[i][k] * lower[j][l] + upper[i][l] * lower[j][k] +
+           upper[j][k] * lower[i][l] - upper[j][l] * lower[i][k] + upper[k][l] * lower[i][j];
+  };
+  return {determinant(1, 2, 3, 4), -determinant(0, 2, 3, 4), determinant(0, 1, 3, 4), -determinant(0, 1, 2, 4),
+          determinant(0, 1, 2, 3)};
+}
+
 /** Sine of the angle between an edgel's gradient and the family's radius. */
 double sineToRadius(const RingFamily& family, const Edgel& edgel)
 {
@@ -106,8 +87,7 @@ bool familyOf(const std::array<Edgel, 4>& edgels, const cv::Point2d& origin, dou
   std::array<Row, 4> rows;
   std::transform(edgels.begin(), edgels.end(), rows.begin(),
                  [&](const Edgel& edgel) { return equation(edgel, origin, scale); });
-  Row solution;
-  return nullVector(rows, solution) && toFamily(solution, origin, scale, family);
+  return toFamily(nullVector(rows), origin, scale, family);
 }
 
 bool refineFamilyShape(const std::vector<Edgel>& edgels, const cv::Point2d& origin, double scale, RingFamily& family)
