@@ -18,21 +18,43 @@ constexpr float MIN_SQUARE = 5;  // px; below it the places along an edge are no
 constexpr double RIDGE = 0.1;
 constexpr double SMOOTH_RIDGE = 0.5;
 
-/** What the edges along a line beside the lattice say, where the board might end. */
+/** What the edges on and beside a line outside the lattice say, where the board might end. */
 struct EdgeLine
 {
   bool ends() const
   {
-    return dark >= 0.5F && light <= 0.3F && dark - light >= 0.4F;
+    return dark >= 0.5F && light <= 0.3F && dark - light >= 0.4F && beyond <= 0.4F;
   }
-  bool mayGoOn() const
+  /** Whether squares lie beside it inside, and none outside: where a shadow's edge runs along the border itself, or the
+   * squares of the rim are narrow. Of 1003 sides of boards 0.16 is the most, of 103 where the board goes on all but
+   * those read askew have more than 0.4. */
+  bool isLast() const
   {
-    return light > 0.15F;
+    return inside >= 0.4F && beyond <= 0.15F;
   }
 
-  int places = 0;   // in the picture, the fewer of both kinds
-  float dark = 0;   // share of places where a dark square of the rim ends
-  float light = 0;  // share of places where a light one ends at a dark one
+  int places = 0;    // in the picture, the fewer of both kinds
+  float dark = 0;    // share of places where a dark square of the rim ends
+  float light = 0;   // share of places where a light one ends at a dark one
+  float inside = 0;  // share of places between the squares inside where light meets dark
+  float beyond = 0;  // the same between the squares that would lie outside
+};
+
+/** Counts which of some places are as expected. */
+struct Share
+{
+  void add(bool is_like)
+  {
+    ++places;
+    like += is_like ? 1 : 0;
+  }
+  float value() const
+  {
+    return static_cast<float>(like) / static_cast<float>(std::max(1, places));
+  }
+
+  int places = 0;
+  int like = 0;
 };
 
 /** Whether squares are looked at there: large enough, and in the picture. False as well where a model bursts. */
@@ -137,8 +159,10 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
 {
   const int line = lineIndex(lattice, side, distance);
   const int start = lineStart(lattice, side);
-  int places[2] = {0, 0};  // dark, light
-  int like[2] = {0, 0};
+  Share dark;
+  Share light;
+  Share inside;
+  Share beyond;
   for (int t = start - 1; t < start + lineLength(lattice, side); ++t)
   {
     const Node node = nodeOnLine(side, line, t);
@@ -148,27 +172,31 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
       continue;
     }
     const PyramidView view(frame, squareHeight(predicted));
-    // The square towards +u +v of a node is light where its sign is positive.
     const int sign = lattice.sign(node.row, node.col);
-    const int is_light = sign == inwards(side) ? 1 : 0;
-    for (const float along : {0.2F, 0.4F, 0.6F, 0.8F})
-    {
-      const cv::Point2f place = isRow(side) ? cv::Point2f(along, 0) : cv::Point2f(0, along);
+    // The square towards +u +v of a node is light where its sign is positive.
+    const bool is_light = sign == inwards(side);
+    const auto look = [&](float u_or_v, bool along_u, Share& share, bool darker_passes) {
+      const cv::Point2f place = along_u ? cv::Point2f(u_or_v, 0) : cv::Point2f(0, u_or_v);
       if (isInside(frame.raw_grey, predicted.at(place.x, place.y), 2))
       {
-        ++places[is_light];
-        Edge edge = strongestEdge(view, predicted, place, isRow(side), sign);
-        // Under a shadow that begins there a light square would end all the darker.
-        edge.ratio = is_light == 1 ? std::min(edge.ratio, ratio) : edge.ratio;
-        like[is_light] += edge.isLike(0, ratio) ? 1 : 0;
+        Edge edge = strongestEdge(view, predicted, place, along_u, u_or_v > 0 ? sign : -sign);
+        edge.ratio = darker_passes ? std::min(edge.ratio, ratio) : edge.ratio;
+        share.add(edge.isLike(0, ratio));
+      }
+    };
+    for (const float step : {0.2F, 0.4F, 0.6F, 0.8F})
+    {
+      // Under a shadow that begins there a light square would end all the darker.
+      look(step, isRow(side), is_light ? light : dark, is_light);
+      if (t >= start)
+      {
+        const auto in = static_cast<float>(inwards(side));
+        look(step * in, !isRow(side), inside, false);
+        look(-step * in, !isRow(side), beyond, false);
       }
     }
   }
-  EdgeLine result;
-  result.places = std::min(places[0], places[1]);
-  result.dark = static_cast<float>(like[0]) / static_cast<float>(std::max(1, places[0]));
-  result.light = static_cast<float>(like[1]) / static_cast<float>(std::max(1, places[1]));
-  return result;
+  return {std::min(dark.places, light.places), dark.value(), light.value(), inside.value(), beyond.value()};
 }
 
 void dropEmptyLines(Lattice& lattice)
@@ -242,7 +270,7 @@ SideEvidence sideEvidence(const EdgeLine& line)
   {
     return SideEvidence::doubtful_border;
   }
-  return line.places == 0 ? SideEvidence::cut : line.mayGoOn() ? SideEvidence::none : SideEvidence::rim;
+  return line.places == 0 ? SideEvidence::cut : line.isLast() ? SideEvidence::rim : SideEvidence::none;
 }
 }  // namespace
 
