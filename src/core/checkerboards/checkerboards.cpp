@@ -11,6 +11,7 @@
 #include "checkerboard_order.h"
 #include "corner_look.h"
 #include "corners.h"
+#include "edge_growth.h"
 #include "edge_reading.h"
 #include "groups.h"
 #include "lattice.h"
@@ -179,9 +180,11 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     std::array<SideEvidence, 4> sides;
     const Growth growth = growFromSeed(seed, looker, lattice, map);
-    if (growth == Growth::none ||
-        !((growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
-          settleByEdges(lattice, looker.frame(), sides)))
+    const bool settled =
+        (growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
+        ((growth != Growth::none || growByEdges(looker.frame(), seed.frame, lattice)) &&
+         settleByEdges(lattice, looker.frame(), sides));
+    if (!settled)
     {
       continue;
     }

@@ -110,6 +110,12 @@ OMR_VECTORIZED void sampleAcross(const PyramidView& view, const LocalFrame& loca
 }
 }  // namespace
 
+bool showsEdges(const Frame& frame, const LocalFrame& predicted)
+{
+  constexpr float MIN_SQUARE = 5;  // px; below it the places along an edge are not apart
+  return squareHeight(predicted) >= MIN_SQUARE && isInside(frame.raw_grey, predicted.node, 2);
+}
+
 Edge strongestEdge(const PyramidView& view, const LocalFrame& frame, const cv::Point2f& place, bool along_u, int sign)
 {
   Profile grey;

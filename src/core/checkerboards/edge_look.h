@@ -3,9 +3,14 @@
 
 #include "corner_ring.h"
 #include "local_frame.h"
+#include "outdoor_omr/frame.h"
 
 namespace omr
 {
+/** Whether edges can be looked at there: the squares large enough, and in the picture. False as well where a model
+ * bursts. */
+bool showsEdges(const Frame& frame, const LocalFrame& predicted);
+
 /** Light beside dark across a lattice line, at one place of it. */
 struct Edge
 {

@@ -14,7 +14,6 @@ namespace omr
 namespace
 {
 constexpr int MIN_CORNERS = 6;
-constexpr float MIN_SQUARE = 5;  // px; below it the places along an edge are not apart
 constexpr double RIDGE = 0.1;
 constexpr double SMOOTH_RIDGE = 0.5;
 
@@ -57,12 +56,6 @@ struct Share
   int like = 0;
 };
 
-/** Whether squares are looked at there: large enough, and in the picture. False as well where a model bursts. */
-bool isVisible(const Frame& frame, const LocalFrame& predicted)
-{
-  return squareHeight(predicted) >= MIN_SQUARE && isInside(frame.raw_grey, predicted.node, 2);
-}
-
 void clear(Lattice& lattice)
 {
   for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
@@ -93,7 +86,7 @@ bool isPromising(const Frame& frame, const LatticeModel& model, const Lattice& l
         continue;
       }
       const LocalFrame predicted = model.frameAt(i, j);
-      if (!isVisible(frame, predicted) || looks - alike > LOOKS - MIN_ALIKE)
+      if (!showsEdges(frame, predicted) || looks - alike > LOOKS - MIN_ALIKE)
       {
         return false;
       }
@@ -121,7 +114,7 @@ float lookAtNodes(const Frame& frame, const LatticeModel& model, float ratio, La
     for (int j = box.x; j < box.br().x; ++j)
     {
       const LocalFrame predicted = model.frameAt(i, j);
-      if (!Lattice::admits(i, j) || lattice.found(i, j) || !isVisible(frame, predicted))
+      if (!Lattice::admits(i, j) || lattice.found(i, j) || !showsEdges(frame, predicted))
       {
         continue;
       }
@@ -167,7 +160,7 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
   {
     const Node node = nodeOnLine(side, line, t);
     const LocalFrame predicted = model.frameAt(node.row, node.col);
-    if (!isVisible(frame, predicted))
+    if (!showsEdges(frame, predicted))
     {
       continue;
     }

@@ -1,0 +1,71 @@
+#include "edge_growth.h"
+
+#include <algorithm>
+
+#include "corner_ring.h"
+#include "edge_look.h"
+#include "lattice_prediction.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int PREDICTION_WINDOW = 3;  // nodes
+constexpr int MIN_CORNERS = 6;
+constexpr int ENOUGH = 16;  // for a plane through them
+
+bool lookAt(const Frame& frame, const LocalFrame& predicted, int sign, CornerLook& corner)
+{
+  if (!showsEdges(frame, predicted))
+  {
+    return false;
+  }
+  const CornerEdges edges = lookAtEdges(PyramidView(frame, squareHeight(predicted)), predicted, sign);
+  corner.position = edges.position;
+  corner.sign = sign;
+  corner.contrast = edges.contrast;
+  corner.correlation = edges.agreeing;
+  return edges.alike;
+}
+
+/** Looks at all nodes beside the corners. */
+void lookAround(const Frame& frame, Lattice& lattice)
+{
+  const cv::Rect box = lattice.box;
+  for (int i = box.y - 1; i <= box.br().y; ++i)
+  {
+    for (int j = box.x - 1; j <= box.br().x; ++j)
+    {
+      const Lattice& known = lattice;
+      const bool beside =
+          known.found(i - 1, j) || known.found(i + 1, j) || known.found(i, j - 1) || known.found(i, j + 1);
+      LocalFrame predicted;
+      CornerLook corner;
+      if (Lattice::admits(i, j) && !known.found(i, j) && beside &&
+          predictNode(lattice, i, j, PREDICTION_WINDOW, predicted) &&
+          lookAt(frame, predicted, lattice.sign(i, j), corner))
+      {
+        lattice.put(i, j, corner);
+      }
+    }
+  }
+}
+}  // namespace
+
+bool growByEdges(const Frame& frame, const LocalFrame& seed, Lattice& lattice)
+{
+  CornerLook corner;
+  if (!lookAt(frame, seed, 1, corner) && !lookAt(frame, seed, -1, corner))
+  {
+    return false;
+  }
+  lattice.start(seed, corner);
+  for (int before = 0; lattice.count() > before && lattice.count() < ENOUGH;)
+  {
+    before = lattice.count();
+    lookAround(frame, lattice);
+  }
+  return lattice.count() >= MIN_CORNERS;
+}
+
+}  // namespace omr
