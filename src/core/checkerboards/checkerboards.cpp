@@ -12,6 +12,7 @@
 #include "corner_look.h"
 #include "corners.h"
 #include "edge_growth.h"
+#include "edge_line.h"
 #include "edge_reading.h"
 #include "groups.h"
 #include "lattice.h"
@@ -123,7 +124,14 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
     noteFailure(lattice, 2, map);
     return false;
   }
-  return true;
+  const bool goes_on = std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
+    return sides[side] == SideEvidence::rim && squaresGoOn(looker.frame(), lattice, side);
+  });
+  if (goes_on)
+  {
+    noteFailure(lattice, 1, map);
+  }
+  return !goes_on;
 }
 
 /** The same by the edges of its squares, which say what corners do not under hard shadows; a border where both say so.
@@ -180,10 +188,9 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     }
     std::array<SideEvidence, 4> sides;
     const Growth growth = growFromSeed(seed, looker, lattice, map);
-    const bool settled =
-        (growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
-        ((growth != Growth::none || growByEdges(looker.frame(), seed.frame, lattice)) &&
-         settleByEdges(lattice, looker.frame(), sides));
+    const bool settled = (growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
+                         ((growth != Growth::none || growByEdges(looker.frame(), seed.frame, lattice)) &&
+                          settleByEdges(lattice, looker.frame(), sides));
     if (!settled)
     {
       continue;

@@ -5,6 +5,7 @@
 
 #include "corner_fit.h"
 #include "corner_ring.h"
+#include "edge_line.h"
 #include "edge_look.h"
 #include "lattice_model.h"
 #include "lattice_side.h"
@@ -13,48 +14,6 @@ namespace omr
 {
 namespace
 {
-constexpr int MIN_CORNERS = 6;
-constexpr double RIDGE = 0.1;
-constexpr double SMOOTH_RIDGE = 0.5;
-
-/** What the edges on and beside a line outside the lattice say, where the board might end. */
-struct EdgeLine
-{
-  bool ends() const
-  {
-    return dark >= 0.5F && light <= 0.3F && dark - light >= 0.4F && beyond <= 0.4F;
-  }
-  /** Whether squares lie beside it inside, and none outside: where a shadow's edge runs along the border itself, or the
-   * squares of the rim are narrow. Of 1003 sides of boards 0.16 is the most, of 103 where the board goes on all but
-   * those read askew have more than 0.4. */
-  bool isLast() const
-  {
-    return inside >= 0.4F && beyond <= 0.15F;
-  }
-
-  int places = 0;    // in the picture, the fewer of both kinds
-  float dark = 0;    // share of places where a dark square of the rim ends
-  float light = 0;   // share of places where a light one ends at a dark one
-  float inside = 0;  // share of places between the squares inside where light meets dark
-  float beyond = 0;  // the same between the squares that would lie outside
-};
-
-/** Counts which of some places are as expected. */
-struct Share
-{
-  void add(bool is_like)
-  {
-    ++places;
-    like += is_like ? 1 : 0;
-  }
-  float value() const
-  {
-    return static_cast<float>(like) / static_cast<float>(std::max(1, places));
-  }
-
-  int places = 0;
-  int like = 0;
-};
 
 void clear(Lattice& lattice)
 {
@@ -146,52 +105,6 @@ float lookAtNodes(const Frame& frame, const LatticeModel& model, float ratio, La
   return *middle;
 }
 
-/** @param distance of the line from the outermost corners. */
-EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lattice& lattice, Side side, int distance,
-                        float ratio)
-{
-  const int line = lineIndex(lattice, side, distance);
-  const int start = lineStart(lattice, side);
-  Share dark;
-  Share light;
-  Share inside;
-  Share beyond;
-  for (int t = start - 1; t < start + lineLength(lattice, side); ++t)
-  {
-    const Node node = nodeOnLine(side, line, t);
-    const LocalFrame predicted = model.frameAt(node.row, node.col);
-    if (!showsEdges(frame, predicted))
-    {
-      continue;
-    }
-    const PyramidView view(frame, squareHeight(predicted));
-    const int sign = lattice.sign(node.row, node.col);
-    // The square towards +u +v of a node is light where its sign is positive.
-    const bool is_light = sign == inwards(side);
-    const auto look = [&](float u_or_v, bool along_u, Share& share, bool darker_passes) {
-      const cv::Point2f place = along_u ? cv::Point2f(u_or_v, 0) : cv::Point2f(0, u_or_v);
-      if (isInside(frame.raw_grey, predicted.at(place.x, place.y), 2))
-      {
-        Edge edge = strongestEdge(view, predicted, place, along_u, u_or_v > 0 ? sign : -sign);
-        edge.ratio = darker_passes ? std::min(edge.ratio, ratio) : edge.ratio;
-        share.add(edge.isLike(0, ratio));
-      }
-    };
-    for (const float step : {0.2F, 0.4F, 0.6F, 0.8F})
-    {
-      // Under a shadow that begins there a light square would end all the darker.
-      look(step, isRow(side), is_light ? light : dark, is_light);
-      if (t >= start)
-      {
-        const auto in = static_cast<float>(inwards(side));
-        look(step * in, !isRow(side), inside, false);
-        look(-step * in, !isRow(side), beyond, false);
-      }
-    }
-  }
-  return {std::min(dark.places, light.places), dark.value(), light.value(), inside.value(), beyond.value()};
-}
-
 void dropEmptyLines(Lattice& lattice)
 {
   constexpr float MIN_SHARE = 0.4F;
@@ -208,20 +121,6 @@ void dropEmptyLines(Lattice& lattice)
     }
     dropLine(lattice, *side);
   }
-}
-
-/** A plane; once its corners are exact, and the more they are, bent as a lens bends it. */
-bool fitModel(const Lattice& lattice, bool exact, LatticeModel& model)
-{
-  constexpr int MIN_BENT = 20;    // corners
-  constexpr int MIN_SMOOTH = 36;  // corners; with fewer a smooth surface follows the edges of shadows
-  if (exact && lattice.count() >= MIN_SMOOTH)
-  {
-    return model.fitSmooth(lattice, SMOOTH_RIDGE);
-  }
-  const bool bent = exact && lattice.count() >= MIN_BENT;
-  return lattice.count() >= MIN_CORNERS &&
-         model.fit(lattice, bent ? LatticeModel::quadratic : LatticeModel::robust_homography, RIDGE);
 }
 
 /** Grows and reads until nothing more is found. @param model through the corners @return their ratio; 0 if none. */
@@ -244,7 +143,7 @@ float readCorners(const Frame& frame, Lattice& lattice, LatticeModel& model)
       lookAtNodes(frame, model, ratio, lattice);
     }
     dropEmptyLines(lattice);
-    if (!fitModel(lattice, true, model))
+    if (!fitEdges(lattice, true, model))
     {
       return 0;
     }
@@ -271,7 +170,7 @@ bool readByEdges(const Frame& frame, Lattice& lattice, std::array<SideEvidence, 
 {
   constexpr int MAX_HIDDEN_LINES = 2;
   LatticeModel model;
-  if (std::min(lattice.box.width, lattice.box.height) < 2 || !fitModel(lattice, false, model) ||
+  if (std::min(lattice.box.width, lattice.box.height) < 2 || !fitEdges(lattice, false, model) ||
       !isPromising(frame, model, lattice))
   {
     return false;

@@ -1,0 +1,54 @@
+#ifndef OUTDOOR_OMR_CORE_EDGE_LINE_H
+#define OUTDOOR_OMR_CORE_EDGE_LINE_H
+
+#include "lattice.h"
+#include "lattice_model.h"
+#include "lattice_side.h"
+#include "outdoor_omr/frame.h"
+
+namespace omr
+{
+/** What the edges on a line outside the lattice and to both sides of it say, where the board might end. */
+struct EdgeLine
+{
+  /** The dark squares of the rim end at the line. */
+  bool ends() const;
+
+  /** Squares lie inside the line, and none outside: where a shadow's edge runs along the border, or the rim is narrow.
+   * Where the line of light squares is hidden beyond, they end there as dark ones do not. */
+  bool isLast() const;
+
+  /** Squares lie outside the line as well. */
+  bool goesOn() const;
+
+  int places = 0;    // in the picture, the fewer of both kinds
+  float dark = 0;    // share of places where a dark square of the rim ends
+  float light = 0;   // share of places where a light one ends at a dark one
+  float inside = 0;  // share of places between the squares inside where light meets dark
+  float beyond = 0;  // the same between the squares that would lie outside
+};
+
+/**
+ * The surface along which edges are looked for: a plane; once its corners are exact, and the more they are, bent as a
+ * lens bends it.
+ *
+ * @return false if the corners are too few.
+ */
+bool fitEdges(const Lattice& lattice, bool exact, LatticeModel& model);
+
+/**
+ * @param distance of the line from the outermost corners.
+ * @param ratio    of the board's light to its dark, logarithm.
+ */
+EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lattice& lattice, Side side, int distance,
+                        float ratio);
+
+/**
+ * Whether squares go on beyond a side, which a lattice settled by its corners does not show: a shadow spoils their
+ * line. Of 15 such sides of boards below drawn fences 14 go on, of 690 where the board ends none.
+ */
+bool squaresGoOn(const Frame& frame, const Lattice& lattice, Side side);
+
+}  // namespace omr
+
+#endif
