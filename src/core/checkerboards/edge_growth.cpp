@@ -28,6 +28,20 @@ bool lookAt(const Frame& frame, const LocalFrame& predicted, int sign, CornerLoo
   return edges.alike;
 }
 
+/** Of the squares around a corner that alternate, the light ones: see CornerLook::sign. */
+int signAt(const Frame& frame, const LocalFrame& corner)
+{
+  constexpr float OFFSET = 0.3F;  // squares
+  const PyramidView view(frame, squareHeight(corner));
+  float difference = 0;
+  for (int q = 0; q < QUADRANTS; ++q)
+  {
+    const float value = greyLogarithm(view.sample(corner.at(OFFSET * QUADRANT_U[q], OFFSET * QUADRANT_V[q])));
+    difference += q % 2 == 0 ? value : -value;
+  }
+  return difference > 0 ? 1 : -1;
+}
+
 /** Looks at all nodes beside the corners. */
 void lookAround(const Frame& frame, Lattice& lattice)
 {
@@ -55,7 +69,7 @@ void lookAround(const Frame& frame, Lattice& lattice)
 bool growByEdges(const Frame& frame, const LocalFrame& seed, Lattice& lattice)
 {
   CornerLook corner;
-  if (!lookAt(frame, seed, 1, corner) && !lookAt(frame, seed, -1, corner))
+  if (!lookAt(frame, seed, signAt(frame, seed), corner))
   {
     return false;
   }
