@@ -1,0 +1,116 @@
+#include "checkerboards/edge_line.h"
+
+#include <gtest/gtest.h>
+
+#include "checkerboards/edge_growth.h"
+#include "render.h"
+
+using omr::Frame;
+using omr::Lattice;
+using omr::LocalFrame;
+using omr::test::Render;
+
+namespace
+{
+constexpr int ROWS = 7;
+constexpr int COLS = 8;
+constexpr double SQUARE = 30;  // px
+
+const cv::Matx33d& place()
+{
+  static const cv::Matx33d PLACE = omr::test::boardHomography(ROWS, COLS, {200, 170}, SQUARE, 8);
+  return PLACE;
+}
+
+cv::Point2f at(double x, double y)
+{
+  return cv::Point2f(omr::test::project(place(), x, y));
+}
+
+LocalFrame frameAt(int x, int y)
+{
+  return {at(x, y), at(x + 1, y) - at(x, y), at(x, y + 1) - at(x, y)};
+}
+
+/** Shadow of bars across the rows of squares. @param from, to rows where a bar begins and ends. */
+void addBar(Render& render, double from, double to)
+{
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  render.addShadow({corner(-2, from), corner(COLS + 2, from), corner(COLS + 2, to), corner(-2, to)}, 0.3);
+}
+
+/** The inner corners of the first rows. */
+Lattice firstRows(int rows)
+{
+  Lattice lattice;
+  omr::CornerLook corner;
+  corner.sign = -1;  // the squares before and behind the first corner are black
+  corner.contrast = 100;
+  corner.correlation = 1;
+  corner.position = at(1, 1);
+  lattice.start(frameAt(1, 1), corner);
+  for (int i = 0; i < rows; ++i)
+  {
+    for (int j = 0; j < COLS - 1; ++j)
+    {
+      corner.position = at(j + 1, i + 1);
+      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
+    }
+  }
+  return lattice;
+}
+}  // namespace
+
+TEST(EdgeLine, squaresGoOnBelowAShadow)
+{
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  addBar(render, 4.6, 5.5);  // over the corners of the line that the lattice lacks
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), omr::bottom));
+  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), omr::bottom));
+  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), omr::top));
+}
+
+TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)
+{
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  addBar(render, ROWS, ROWS + 0.6);  // as dark a line as the rim's own
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  const Lattice lattice = firstRows(ROWS - 1);
+  omr::LatticeModel model;
+  ASSERT_TRUE(omr::fitEdges(lattice, true, model));
+  const float ratio = 1.8F;  // of the drawn black and white
+  const omr::EdgeLine border = omr::lookAtEdgeLine(frame, model, lattice, omr::bottom, 1, ratio);
+  EXPECT_FALSE(border.ends());
+  EXPECT_TRUE(border.isLast());
+  EXPECT_FALSE(omr::lookAtEdgeLine(frame, model, lattice, omr::bottom, -1, ratio).isLast());
+}
+
+TEST(EdgeGrowth, growsWhereRingsDoNot)
+{
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  for (int i = 0; i < 8; ++i)
+  {
+    addBar(render, 0.85 + i, 1.3 + i);
+  }
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  Lattice lattice;
+  EXPECT_TRUE(omr::growByEdges(frame, frameAt(3, 3), lattice));
+  EXPECT_GE(lattice.count(), 12);
+}
+
+TEST(EdgeGrowth, bareGroundHasNoEdges)
+{
+  const Frame frame = omr::makeFrame(Render({400, 340}).picture(0.8));
+  Lattice lattice;
+  EXPECT_FALSE(omr::growByEdges(frame, frameAt(3, 3), lattice));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
