@@ -67,6 +67,28 @@ TEST(CheckerboardsInShadow, aBoardIsFoundBelowAFence)
   }
 }
 
+// Bars that run along the squares or have their width draw corners and borders of their own, and hide the board's.
+TEST(CheckerboardsInShadow, mostFencesHideNoBoardAndNoneChangesItsSize)
+{
+  int found = 0;
+  for (int direction = 5; direction < 180; direction += 10)
+  {
+    for (const double step : {23, 27, 31, 36, 43})
+    {
+      Render render({400, 300});
+      render.addBoard(5, 7, omr::test::boardHomography(5, 7, {200, 150}, 26, 10, 20));
+      addFence(render, {200, 150}, direction, step);
+      for (const Checkerboard& board : find(render.picture(0.8)))
+      {
+        ++found;
+        EXPECT_EQ(5, board.rows) << direction << " " << step;
+        EXPECT_EQ(7, board.cols) << direction << " " << step;
+      }
+    }
+  }
+  EXPECT_GE(found, 60) << "of 90, where corners alone begin 27";
+}
+
 TEST(CheckerboardsInShadow, aSizeIsCertainWhereEdgesAndMarginSaySo)
 {
   Render render({400, 300});

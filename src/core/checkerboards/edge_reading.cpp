@@ -183,6 +183,11 @@ bool readByEdges(const Frame& frame, Lattice& lattice, std::array<SideEvidence, 
   }
   for (const Side side : SIDES)
   {
+    // Shadows draw a few corners on the border as well: below 90 fences drawn over one board 2 wrong sizes -> 0.
+    while (std::min(read.box.width, read.box.height) > 1 && lookAtEdgeLine(frame, model, read, side, 0, ratio).ends())
+    {
+      dropLine(read, side);
+    }
     EdgeLine border = lookAtEdgeLine(frame, model, read, side, 1, ratio);
     for (int hidden = 1; hidden <= MAX_HIDDEN_LINES && !border.ends(); ++hidden)
     {
