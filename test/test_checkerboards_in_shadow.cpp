@@ -71,7 +71,7 @@ TEST(CheckerboardsInShadow, aBoardIsFoundBelowAFence)
 TEST(CheckerboardsInShadow, mostFencesHideNoBoardAndNoneChangesItsSize)
 {
   int found = 0;
-  for (int direction = 5; direction < 180; direction += 10)
+  for (int direction = 5; direction < 180; direction += 20)
   {
     for (const double step : {23, 27, 31, 36, 43})
     {
@@ -86,7 +86,7 @@ TEST(CheckerboardsInShadow, mostFencesHideNoBoardAndNoneChangesItsSize)
       }
     }
   }
-  EXPECT_GE(found, 60) << "of 90, where corners alone begin 27";
+  EXPECT_GE(found, 32) << "of 45";
 }
 
 TEST(CheckerboardsInShadow, aSizeIsCertainWhereEdgesAndMarginSaySo)

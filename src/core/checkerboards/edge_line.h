@@ -14,18 +14,18 @@ struct EdgeLine
   /** The dark squares of the rim end at the line. */
   bool ends() const;
 
-  /** Squares lie inside the line, and none outside: where a shadow's edge runs along the border, or the rim is narrow.
-   * Where the line of light squares is hidden beyond, they end there as dark ones do not. */
+  /** Squares lie inside the line, and none outside: so a board ends as well whose rim is narrow, or along whose border
+   * a shadow's edge runs. Not where light squares end at dark ones: there the squares beyond are hidden. */
   bool isLast() const;
 
   /** Squares lie outside the line as well. */
   bool goesOn() const;
 
-  int places = 0;    // in the picture, the fewer of both kinds
-  float dark = 0;    // share of places where a dark square of the rim ends
-  float light = 0;   // share of places where a light one ends at a dark one
-  float inside = 0;  // share of places between the squares inside where light meets dark
-  float beyond = 0;  // the same between the squares that would lie outside
+  int places = 0;    ///< in the picture, the fewer of both kinds
+  float dark = 0;    ///< share of places where a dark square of the rim ends
+  float light = 0;   ///< share of places where a light one ends at a dark one
+  float inside = 0;  ///< share of places between the squares inside where light meets dark
+  float beyond = 0;  ///< the same between the squares that would lie outside
 };
 
 /**
