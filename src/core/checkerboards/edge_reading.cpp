@@ -14,7 +14,6 @@ namespace omr
 {
 namespace
 {
-
 void clear(Lattice& lattice)
 {
   for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
