@@ -22,9 +22,19 @@ void order(LaneRow& first, LaneRow& second)
   }
 }
 
-/** Batcher's odd-even merge sort (Knuth, The Art of Computer Programming 3, algorithm 5.2.2M) of half of the rows. */
-void sortHalf(LaneRow* rows)
+/** Two rows to be put in order. */
+struct Comparison
 {
+  std::size_t first, second;
+};
+
+constexpr std::size_t COMPARISONS = 191;  // of a network for HALF rows
+
+/** Batcher's odd-even merge sort (Knuth, The Art of Computer Programming 3, algorithm 5.2.2M) of half of the rows. */
+constexpr std::array<Comparison, COMPARISONS> mergeSort()
+{
+  std::array<Comparison, COMPARISONS> network{};
+  std::size_t count = 0;
   for (std::size_t p = 1; p < HALF; p *= 2)
   {
     for (std::size_t k = p; k >= 1; k /= 2)
@@ -35,11 +45,22 @@ void sortHalf(LaneRow* rows)
         {
           if (i / (2 * p) == (i + k) / (2 * p))
           {
-            order(rows[i], rows[i + k]);
+            network[count++] = {i, i + k};
           }
         }
       }
     }
+  }
+  return network;
+}
+
+constexpr std::array<Comparison, COMPARISONS> NETWORK = mergeSort();
+
+void sortHalf(LaneRow* rows)
+{
+  for (const Comparison& comparison : NETWORK)
+  {
+    order(rows[comparison.first], rows[comparison.second]);
   }
 }
 }  // namespace
