@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "edge_chains.h"
 #include "fast_angle.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -21,37 +23,67 @@ constexpr std::size_t CORNER_REACH = 4;
 constexpr double CORNER = .9;  // turning over twice that many edgels [rad]
 constexpr int PARTS = 8;       // of the chains, shared by the threads; the arcs do not depend on how many there are
 
-/** An edgel of a chain, its tangent along the chain. */
-struct Link
+/** Edgels of a chain and the tangents there. */
+struct Links
 {
-  const Edgel* edgel = nullptr;
-  double angle = 0;  // of the tangent, continuous along the chain [rad]
+  const Edgel* const* edgels = nullptr;
+  std::vector<double> angles;  // continuous along the chain [rad]
 };
+
+/** The tangents' directions [rad]. */
+OMR_VECTORIZED void findDirections(const float* nx, const float* ny, std::size_t count, double* directions)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    directions[i] = fastAngle(-ny[i], nx[i]) * (CV_PI / 180);
+  }
+}
+
+/** By how many half turns each direction but the first goes on beside the one before, instead of turning least. */
+OMR_VECTORIZED void findHalfTurns(const double* directions, std::size_t count, std::int64_t* half_turns)
+{
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    const double turn = directions[i] - directions[i - 1];
+    half_turns[i] = (turn > .5 * CV_PI ? 1 : 0) + (turn > 1.5 * CV_PI ? 1 : 0) - (turn < -.5 * CV_PI ? 1 : 0) -
+                    (turn < -1.5 * CV_PI ? 1 : 0);
+  }
+}
 
 /** Tangents along chains, smoothed; the memory serves one chain after the other. */
 class Tangents
 {
  public:
-  const std::vector<Link>& of(const Edgel* const* chain, std::size_t count)
+  const Links& of(const Edgel* const* chain, std::size_t count)
   {
+    nx_.resize(count);
+    ny_.resize(count);
     raw_.resize(count);
-    std::transform(chain, chain + count, raw_.begin(),
-                   [](const Edgel* edgel) { return fastAngle(-edgel->ny, edgel->nx) * (CV_PI / 180); });
+    half_turns_.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      nx_[i] = chain[i]->nx;
+      ny_[i] = chain[i]->ny;
+    }
+    findDirections(nx_.data(), ny_.data(), count, raw_.data());
+    findHalfTurns(raw_.data(), count, half_turns_.data());
     const Edgel& first = *chain[0];
     const Edgel& second = *chain[1];
-    raw_[0] += (second.x - first.x) * -first.ny + (second.y - first.y) * first.nx < 0 ? CV_PI : 0;
+    // Along the chain the tangent turns little, whichever side is brighter.
+    std::int64_t half_turns = (second.x - first.x) * -first.ny + (second.y - first.y) * first.nx < 0 ? -1 : 0;
+    raw_[0] -= CV_PI * static_cast<double>(half_turns);
     for (std::size_t i = 1; i < count; ++i)
     {
-      // Along the chain the tangent turns little, whichever side is brighter.
-      raw_[i] -= CV_PI * cvRound((raw_[i] - raw_[i - 1]) * (1 / CV_PI));
+      half_turns += half_turns_[i];
+      raw_[i] -= CV_PI * static_cast<double>(half_turns);
     }
-    links_.resize(count);
+    links_.edgels = chain;
+    links_.angles.resize(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       const std::size_t from = i >= REACH ? i - REACH : 0;
       const std::size_t to = std::min(count, i + REACH + 1);
-      links_[i] = {chain[i],
-                   std::accumulate(raw_.begin() + from, raw_.begin() + to, 0.) / static_cast<double>(to - from)};
+      links_.angles[i] = std::accumulate(raw_.begin() + from, raw_.begin() + to, 0.) / static_cast<double>(to - from);
     }
     return links_;
   }
@@ -59,33 +91,35 @@ class Tangents
  private:
   static constexpr std::size_t REACH = 2;  // of the smoothing, edgels
 
+  std::vector<float> nx_, ny_;
   std::vector<double> raw_;
-  std::vector<Link> links_;
+  std::vector<std::int64_t> half_turns_;
+  Links links_;
 };
 
-EdgeArc makeArc(const std::vector<Link>& links, std::size_t from, std::size_t to, int chain)
+EdgeArc makeArc(const Links& links, std::size_t from, std::size_t to, int chain)
 {
   EdgeArc arc;
   arc.chain = chain;
-  arc.turning = std::abs(links[to - 1].angle - links[from].angle);
+  arc.turning = std::abs(links.angles[to - 1] - links.angles[from]);
   for (std::size_t i = from; i < to; ++i)
   {
-    arc.sums.add(*links[i].edgel);
+    arc.sums.add(*links.edgels[i]);
   }
   arc.sums.close();
-  const Edgel& middle = *links[(from + to) / 2].edgel;
+  const Edgel& middle = *links.edgels[(from + to) / 2];
   arc.middle = {middle.x, middle.y};
-  const double angle = links[(from + to) / 2].angle;
-  const double left = links[to - 1].angle > links[from].angle ? 1 : -1;
+  const double angle = links.angles[(from + to) / 2];
+  const double left = links.angles[to - 1] > links.angles[from] ? 1 : -1;
   arc.inwards = {-std::sin(angle) * left, std::cos(angle) * left};
   return arc;
 }
 
 /** Cuts a chain where it has a corner, turns back or has turned enough. */
-void cutChain(const std::vector<Link>& links, int& chain, std::vector<EdgeArc>& arcs)
+void cutChain(const Links& links, int& chain, std::vector<EdgeArc>& arcs)
 {
-  const std::size_t count = links.size();
-  const auto turning = [&](std::size_t from, std::size_t to) { return links[to].angle - links[from].angle; };
+  const std::size_t count = links.angles.size();
+  const auto turning = [&](std::size_t from, std::size_t to) { return links.angles[to] - links.angles[from]; };
   std::size_t from = 0;
   ++chain;
   while (from + MIN_ARC <= count)
