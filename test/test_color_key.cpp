@@ -7,7 +7,16 @@ using omr::readColorKey;
 
 namespace
 {
-using Ways = std::vector<std::vector<LinearColor>>;
+/** As if the rings had been measured in these ways. */
+std::vector<omr::ColorMeasurement> ways(const std::vector<std::vector<LinearColor>>& measured)
+{
+  std::vector<omr::ColorMeasurement> result;
+  for (const std::vector<LinearColor>& rings : measured)
+  {
+    result.emplace_back([rings] { return rings; });
+  }
+  return result;
+}
 
 const LinearColor WHITE(.8, .8, .8);
 const LinearColor BLACK(.055, .055, .055);
@@ -101,22 +110,32 @@ TEST(ColorKey, theWayOfMeasuringThatOneKeyExplainsDecides)
   const std::vector<LinearColor> glossy = {WHITE, WHITE, LinearColor(.5, .7, .55), WHITE, WHITE};
   const std::vector<LinearColor> dark = {RED, WHITE, GREEN, BLUE, WHITE};
   const std::vector<bool> seen(4, true);
-  EXPECT_EQ("RWGB", readColorKey(Ways{glossy, dark}, seen, true));
-  EXPECT_EQ("RWGB", readColorKey(Ways{dark, glossy}, seen, true));
+  EXPECT_EQ("RWGB", readColorKey(ways({glossy, dark}), seen, true));
+  EXPECT_EQ("RWGB", readColorKey(ways({dark, glossy}), seen, true));
+}
+
+TEST(ColorKey, noFurtherWayIsMeasuredWhereAKeyExplainsTheFirst)
+{
+  std::vector<omr::ColorMeasurement> measurements = ways({{RED, WHITE, GREEN, BLUE, WHITE}});
+  measurements.emplace_back([] {
+    ADD_FAILURE();
+    return std::vector<LinearColor>(5, WHITE);
+  });
+  EXPECT_EQ("RWGB", readColorKey(measurements, std::vector<bool>(4, true), true));
 }
 
 TEST(ColorKey, aHiddenRingIsUnknownAndTellsNothing)
 {
   const LinearColor skin(.6, .35, .2);
-  EXPECT_EQ("??GB", readColorKey(Ways{{skin, skin, GREEN, BLUE, WHITE}}, {false, false, true, true}, true));
-  EXPECT_EQ("???P", readColorKey(Ways{{skin, skin, skin, BLACK * 2., WHITE}}, {false, false, false, true}, true));
-  EXPECT_EQ("??", readColorKey(Ways{{skin, skin, WHITE}}, {false, false}, true));
+  EXPECT_EQ("??GB", readColorKey(ways({{skin, skin, GREEN, BLUE, WHITE}}), {false, false, true, true}, true));
+  EXPECT_EQ("???P", readColorKey(ways({{skin, skin, skin, BLACK * 2., WHITE}}), {false, false, false, true}, true));
+  EXPECT_EQ("??", readColorKey(ways({{skin, skin, WHITE}}), {false, false}, true));
 }
 
 TEST(ColorKey, glossOnOneRingOfSharpOnes)
 {
   // As a flash does: the disk is pale, the others are not. Where the blur may be why, nothing is known.
-  const Ways glossy = {{RED + LinearColor::all(.25), WHITE, GREEN, BLUE, BLACK, WHITE}};
+  const auto glossy = ways({{RED + LinearColor::all(.25), WHITE, GREEN, BLUE, BLACK, WHITE}});
   const std::vector<bool> seen(5, true);
   EXPECT_EQ("RWGBP", readColorKey(glossy, seen, true));
   EXPECT_EQ("?WGBP", readColorKey(glossy, seen, false));

@@ -194,11 +194,10 @@ std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColo
 {
   std::vector<LinearColor> colors = rings;
   colors.push_back(around);
-  return readColorKey({colors}, std::vector<bool>(rings.size(), true), true);
+  return readColorKey({[&] { return colors; }}, std::vector<bool>(rings.size(), true), true);
 }
 
-std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen,
-                         bool is_sharp)
+std::string readColorKey(const std::vector<ColorMeasurement>& ways, const std::vector<bool>& seen, bool is_sharp)
 {
   const std::size_t count = seen.size();
   const auto seen_count = std::count(seen.begin(), seen.end(), true);
@@ -211,12 +210,13 @@ std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, 
   std::vector<Costs> best_costs;
   std::vector<Costs> alternatives;
   double way_cost = 0;
-  for (std::vector<LinearColor> rings : measured)
+  for (const ColorMeasurement& measure : ways)
   {
     if (!best.letters.empty() && best.cost < EXPLAINED * static_cast<double>(seen_count))
     {
       break;
     }
+    std::vector<LinearColor> rings = measure();
     const LinearColor around = rings.back();
     rings.pop_back();
     Explanation explanation;

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_COLOR_KEY_H
 #define OUTDOOR_OMR_CORE_COLOR_KEY_H
 
+#include <functional>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -26,16 +27,18 @@ double linearLight(double grey_level);
  */
 std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around);
 
+/** Measures the rings from the inside out, and last what is around them. */
+using ColorMeasurement = std::function<std::vector<LinearColor>()>;
+
 /**
- * The same where the colours were measured in several ways: the way that one key explains best decides, and a letter
+ * The same where the colours can be measured in several ways: the way that one key explains best decides, and a letter
  * that another way would change at little cost is '?'.
  *
- * @param measured each: the rings from the inside out, and last what is around them.
+ * @param ways     are taken in turn until a key explains one well: nearly always the first.
  * @param seen     of each ring: false where something hides it; it is '?' and tells nothing.
  * @param is_sharp whether the rings are too wide for the blur to pale them, so that gloss does where they are pale.
  */
-std::string readColorKey(const std::vector<std::vector<LinearColor>>& measured, const std::vector<bool>& seen,
-                         bool is_sharp);
+std::string readColorKey(const std::vector<ColorMeasurement>& ways, const std::vector<bool>& seen, bool is_sharp);
 
 }  // namespace omr
 

@@ -91,19 +91,19 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
 {
   while (true)
   {
-    std::vector<std::vector<LinearColor>> measured = {measureRingColors(profile, boundaries, radii)};
+    std::vector<ColorMeasurement> ways = {[&] { return measureRingColors(profile, boundaries, radii); }};
     const bool is_sharp = narrowestRing(radii) > SHARP_WIDTH;
     if (is_sharp)
     {
-      measured.push_back(measureColorsIn(Light::brightest, profile, radii));
-      measured.push_back(measureColorsIn(Light::darkest, profile, radii));
+      ways.emplace_back([&] { return measureColorsIn(Light::brightest, profile, radii); });
+      ways.emplace_back([&] { return measureColorsIn(Light::darkest, profile, radii); });
     }
     std::vector<bool> seen(radii.size());
     for (std::size_t k = 0; k < radii.size(); ++k)
     {
       seen[k] = isSeen(boundaries, k);
     }
-    std::string key = readColorKey(measured, seen, is_sharp);
+    std::string key = readColorKey(ways, seen, is_sharp);
     std::size_t k = 0;
     for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
     {
