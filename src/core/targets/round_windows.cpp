@@ -1,6 +1,7 @@
 #include "round_windows.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "pixel_gradients.h"
 #include "vectorized.h"
@@ -37,19 +38,18 @@ OMR_VECTORIZED void markWindows(const float* __restrict xx, const float* __restr
   }
 }
 
-/** Whether no neighbour has more. */
-bool isBest(const cv::Mat1f& marks, int row, int col)
+/** Which marks of a row no neighbour exceeds; not the first and the last. */
+OMR_VECTORIZED void findBest(const float* __restrict above, const float* __restrict row, const float* __restrict below,
+                             int count, std::int32_t* __restrict is_best)
 {
-  const float mark = marks(row, col);
-  for (int y = row - 1; y <= row + 1; ++y)
+  const auto larger = [](float a, float b) { return a > b ? a : b; };
+  for (int i = 1; i + 1 < count; ++i)
   {
-    const float* beside = marks[y] + col;
-    if (beside[-1] > mark || beside[0] > mark || beside[1] > mark)
-    {
-      return false;
-    }
+    const float before = larger(larger(above[i - 1], row[i - 1]), below[i - 1]);
+    const float after = larger(larger(above[i + 1], row[i + 1]), below[i + 1]);
+    const float beside = larger(larger(above[i], below[i]), larger(before, after));
+    is_best[i] = (row[i] > 0) & (row[i] >= beside) ? 1 : 0;
   }
-  return true;
 }
 }  // namespace
 
@@ -121,14 +121,21 @@ std::vector<cv::Point2d> RoundWindows::strongest(int reach) const
 {
   const cv::Mat1f marks = this->marks(reach);
   std::vector<cv::Point2d> middles;
+  std::vector<std::int32_t> is_best(marks.cols);
+  std::vector<int> cols(marks.cols);
   for (int row = 1; row + 1 < marks.rows; ++row)
   {
+    findBest(marks[row - 1], marks[row], marks[row + 1], marks.cols, is_best.data());
+    // Listed without a branch: which they are cannot be foreseen.
+    std::size_t count = 0;
     for (int col = 1; col + 1 < marks.cols; ++col)
     {
-      if (marks(row, col) > 0 && isBest(marks, row, col))
-      {
-        middles.emplace_back((col + .5) * CELL - .5, (row + .5) * CELL - .5);
-      }
+      cols[count] = col;
+      count += is_best[col] != 0 ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      middles.emplace_back((cols[k] + .5) * CELL - .5, (row + .5) * CELL - .5);
     }
   }
   return middles;
