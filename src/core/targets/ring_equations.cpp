@@ -10,6 +10,7 @@ namespace omr
 namespace
 {
 constexpr int UNKNOWNS = FAMILY_UNKNOWNS;
+constexpr int SIZE = UNKNOWNS + 1;
 
 /** The sums of the equations, in rows as long as vectors like. */
 struct Sums
@@ -20,36 +21,42 @@ struct Sums
   std::array<double, MAX_BOUNDARIES> radius_right{};
 };
 
-OMR_VECTORIZED void addPoints(const CircleDistances& points, const std::vector<CircleDerivative>& derivatives,
-                              const std::vector<double>& errors, double limit, Sums& sums)
+/** A row of the normal equations: the sums of the products of one derivative of each point with all of them. */
+OMR_VECTORIZED CircleDerivative sumProducts(const std::vector<CircleDerivative>& derivatives,
+                                            const std::vector<double>& weights, int row)
 {
-  constexpr int SIZE = UNKNOWNS + 1;
+  CircleDerivative sum{};
+  for (std::size_t p = 0; p < weights.size(); ++p)
+  {
+    const double weighted = weights[p] * derivatives[p][row];
+    for (int i = 0; i < SIZE; ++i)
+    {
+      sum[i] += weighted * derivatives[p][i];
+    }
+  }
+  return sum;
+}
+
+OMR_VECTORIZED void addPoints(const CircleDistances& points, const std::vector<CircleDerivative>& derivatives,
+                              const std::vector<double>& errors, const std::vector<double>& weights, Sums& sums)
+{
   for (std::size_t p = 0; p < errors.size(); ++p)
   {
     const double error = errors[p];
-    const double weight = tukeyWeight(error, limit);
-    if (weight <= 0)
-    {
-      continue;
-    }
-    const CircleDerivative derivative = derivatives[p];
+    const double by_radius = derivatives[p][UNKNOWNS];
     CircleDerivative& coupling = sums.coupling[points.ring(p)];
     CircleDerivative weighted;
     for (int i = 0; i < SIZE; ++i)
     {
-      weighted[i] = weight * derivative[i];
+      weighted[i] = weights[p] * derivatives[p][i];
     }
     for (int i = 0; i < SIZE; ++i)
     {
       sums.right[i] -= weighted[i] * error;
-      coupling[i] += weighted[i] * derivative[UNKNOWNS];
     }
-    for (int i = 0; i < UNKNOWNS; ++i)
+    for (int i = 0; i < SIZE; ++i)
     {
-      for (int j = 0; j < SIZE; ++j)
-      {
-        sums.normal[i][j] += weighted[i] * derivative[j];
-      }
+      coupling[i] += weighted[i] * by_radius;
     }
     sums.radius_right[points.ring(p)] -= weighted[UNKNOWNS] * error;
   }
@@ -60,7 +67,14 @@ RingEquations sumEquations(const CircleDistances& points, const std::vector<Circ
                            const std::vector<double>& errors, double limit)
 {
   Sums sums;
-  addPoints(points, derivatives, errors, limit, sums);
+  std::vector<double> weights(errors.size());
+  std::transform(errors.begin(), errors.end(), weights.begin(),
+                 [=](double error) { return tukeyWeight(error, limit); });
+  addPoints(points, derivatives, errors, weights, sums);
+  for (int row = 0; row < UNKNOWNS; ++row)
+  {
+    sums.normal[row] = sumProducts(derivatives, weights, row);
+  }
   RingEquations equations;
   for (int i = 0; i < UNKNOWNS; ++i)
   {
