@@ -93,6 +93,29 @@ TEST(HiddenTargets, archesWithBarsAreNone)
   }
 }
 
+TEST(HiddenTargets, shadowsOfBarsTiltNoFamilyOfTwoCircles)
+{
+  TargetScene scene;
+  scene.colors = "WRGBG";
+  cv::Mat image = renderTarget(scene);
+  cv::Mat shadows(image.size(), CV_8U, cv::Scalar(0));
+  for (int k = -15; k < 15; ++k)
+  {
+    drawBar(shadows, {0, 12. * k}, 0, 4, cv::Scalar(255));
+  }
+  cv::Mat dark;
+  image.convertTo(dark, -1, .3);
+  dark.copyTo(image, shadows);
+  cv::GaussianBlur(image, image, cv::Size(), .7);
+  omr::EdgelMap map(image);
+  omr::RingFamily family;
+  family.center = {243, 184};
+  omr::RingCandidate candidate;
+  EXPECT_TRUE(omr::growCandidate(map, image, family, {80, 100}, candidate));
+  EXPECT_EQ(5U, candidate.rings.radii.size());
+  EXPECT_NEAR(0, cv::norm(candidate.rings.family.center - cv::Point2d(240, 180)), .5);
+}
+
 TEST(HiddenTargets, openDirectionsAreThoseWithTheEdges)
 {
   TargetScene scene;
