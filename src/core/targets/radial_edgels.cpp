@@ -25,11 +25,12 @@ struct RadialTest
 
 constexpr std::size_t CHUNK = BentSheet::CHUNK;
 
-/** Of edgels side by side; garbage where is_radial is 0. */
+/** Of edgels side by side; garbage where is_radial is 0. The place on the plane is q / scale. */
 struct RadialChunk
 {
-  std::array<float, CHUNK> radius;
-  std::array<float, CHUNK> angle;  // on the plane [degrees]
+  std::array<double, CHUNK> squared;  // of q
+  std::array<double, CHUNK> scale;
+  std::array<float, CHUNK> qx, qy;
   std::array<int, CHUNK> brighter_outside;
   std::array<int, CHUNK> is_radial;
 };
@@ -65,8 +66,10 @@ OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const flo
     const bool in_box = (x[i] >= left) & (x[i] <= right) & (y[i] >= top) & (y[i] <= bottom);
     const bool in_reach = (squared <= max_squared * det_squared) & (squared >= min_squared * det_squared);
     const bool is_radial = projection * projection >= squared_cosine * (gx * gx + gy * gy);
-    chunk.radius[i] = static_cast<float>(std::sqrt(squared) / det);
-    chunk.angle[i] = fastAngle(static_cast<float>(qx), static_cast<float>(qy));
+    chunk.squared[i] = squared;
+    chunk.scale[i] = det;
+    chunk.qx[i] = static_cast<float>(qx);
+    chunk.qy[i] = static_cast<float>(qy);
     chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
     chunk.is_radial[i] = in_box & in_reach & is_radial ? 1 : 0;
   }
@@ -105,8 +108,10 @@ void testBentEdgels(const RadialTest& test, const float* x, const float* y, cons
     const double squared = q.x[k] * q.x[k] + q.y[k] * q.y[k];
     const double projection = gradient.x[k] * nx[i] + gradient.y[k] * ny[i];
     const double slope = gradient.x[k] * gradient.x[k] + gradient.y[k] * gradient.y[k];
-    chunk.radius[i] = static_cast<float>(std::sqrt(squared));
-    chunk.angle[i] = fastAngle(static_cast<float>(q.x[k]), static_cast<float>(q.y[k]));
+    chunk.squared[i] = squared;
+    chunk.scale[i] = 1;
+    chunk.qx[i] = static_cast<float>(q.x[k]);
+    chunk.qy[i] = static_cast<float>(q.y[k]);
     chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
     chunk.is_radial[i] = squared <= test.max_squared && squared >= test.min_squared &&
                                  projection * projection >= test.squared_cosine * slope
@@ -186,8 +191,10 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
       for (std::size_t k = 0; k < count; ++k)
       {
         const std::size_t i = radial[k];
-        edgels.push_back({cv::Point2f(x[i], y[i]), chunk.radius[i], chunk.brighter_outside[i] != 0,
-                          binsAt(chunk.angle[i], chunk.radius[i])});
+        // Few are radial: only theirs is worth a root and an angle.
+        const auto radius = static_cast<float>(std::sqrt(chunk.squared[i]) / chunk.scale[i]);
+        edgels.push_back({cv::Point2f(x[i], y[i]), radius, chunk.brighter_outside[i] != 0,
+                          binsAt(fastAngle(chunk.qx[i], chunk.qy[i]), radius)});
       }
     }
   });
