@@ -28,35 +28,15 @@ constexpr Threshold FAINT = {4, 6};
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
-/** 2 Ix of a row. */
-OMR_VECTORIZED void findSlopes(const uchar* __restrict row, int width, std::int16_t* __restrict slope)
-{
-  for (int x = 1; x < width - 1; ++x)
-  {
-    slope[x] = static_cast<std::int16_t>(row[x + 1] - row[x - 1]);
-  }
-}
-
-/** The rows around a row: grey values, and 2 Ix of those above and below. */
-struct Surroundings
-{
-  const uchar *above, *here, *below;
-  const std::int16_t *slope_above, *slope_below;
-};
-
 /** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes through here. */
-OMR_VECTORIZED void respond(const Surroundings& rows, int width, std::int16_t* __restrict response)
+OMR_VECTORIZED void respond(const uchar* __restrict above, const uchar* __restrict here, const uchar* __restrict below,
+                            int width, std::int16_t* __restrict response)
 {
-  const uchar* __restrict above = rows.above;
-  const uchar* __restrict here = rows.here;
-  const uchar* __restrict below = rows.below;
-  const std::int16_t* __restrict slope_above = rows.slope_above;
-  const std::int16_t* __restrict slope_below = rows.slope_below;
   for (int x = 1; x < width - 1; ++x)
   {
     const auto xx = static_cast<std::int16_t>(16 * (here[x - 1] + here[x + 1] - 2 * here[x]));  // 16 Ixx
     const auto yy = static_cast<std::int16_t>(above[x] + below[x] - 2 * here[x]);
-    const auto xy = static_cast<std::int16_t>(slope_below[x] - slope_above[x]);  // 4 Ixy
+    const auto xy = static_cast<std::int16_t>(above[x - 1] - above[x + 1] + below[x + 1] - below[x - 1]);  // 4 Ixy
     const int value = (xy * xy - xx * yy) >> 2;
     response[x] = static_cast<std::int16_t>(std::max(-32768, std::min(32767, value)));
   }
@@ -226,20 +206,14 @@ void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, s
   const int width = grey.cols;
   Candidates candidates(grey, least.range, found);
   const int stride = width + BLOCK;  // the last block of a row may end beyond it
-  std::vector<std::int16_t> buffer(6 * static_cast<std::size_t>(stride), 0);
+  std::vector<std::int16_t> buffer(3 * static_cast<std::size_t>(stride), 0);
   const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * stride]; };
   std::vector<int> blocks(width / BLOCK + 1);
-  std::array<std::int16_t*, 3> slopes = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
-  Responses responses = {row_of_buffer(3), row_of_buffer(4), row_of_buffer(5)};
-  findSlopes(grey.ptr<uchar>(from - 2), width, slopes[1]);
-  findSlopes(grey.ptr<uchar>(from - 1), width, slopes[2]);
+  Responses responses = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
   for (int y = from - 1; y <= to; ++y)
   {
     std::rotate(responses.begin(), responses.begin() + 1, responses.end());
-    std::rotate(slopes.begin(), slopes.begin() + 1, slopes.end());
-    findSlopes(grey.ptr<uchar>(y + 1), width, slopes[2]);
-    respond({grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), slopes[0], slopes[2]}, width,
-            responses[2]);
+    respond(grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), width, responses[2]);
     if (y > from)
     {
       forEachMaximum(responses, width, least.response, blocks, [&](int x) {
