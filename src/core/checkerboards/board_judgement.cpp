@@ -78,7 +78,7 @@ bool isBoardOfEdges(const Lattice& lattice, const std::array<SideEvidence, 4>& s
   constexpr int MIN_BORDERS = 2;
   // Lines that were added up to the edge of a shadow have no corners, they or the next: of some 270 more boards on
   // photographs below drawn fences 4 wrong -> 0.
-  constexpr float MIN_LINE_SHARE = 0.34F;
+  constexpr float MIN_LINE_SHARE = 0.33F;
   const bool ends_with_corners = std::all_of(SIDES.begin(), SIDES.end(), [&](Side side) {
     const int last = lineIndex(lattice, side, 0);
     const int found = std::min(countOnLine(lattice, side, last), countOnLine(lattice, side, last + inwards(side)));

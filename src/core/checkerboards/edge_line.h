@@ -18,7 +18,7 @@ struct EdgeLine
    * a shadow's edge runs. Not where light squares end at dark ones: there the squares beyond are hidden. */
   bool isLast() const;
 
-  /** Squares lie outside the line as well. */
+  /** Squares lie outside the line as well, or corners on it. */
   bool goesOn() const;
 
   int places = 0;    ///< in the picture, the fewer of both kinds
