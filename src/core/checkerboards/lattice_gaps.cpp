@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "border.h"
+#include "lattice_evidence.h"
 #include "lattice_growth.h"
 #include "lattice_model.h"
 #include "lattice_prediction.h"
@@ -15,13 +16,13 @@ namespace omr
 {
 namespace
 {
-constexpr int REACH = 3;  // squares; with 4 the jump reaches the next board
+constexpr int REACH = 3;      // squares; with 4 the jump reaches the next board
+constexpr int FAR_REACH = 5;  // where the surface says to a tenth of a square where clear corners would lie
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
 bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast,
-                   float tolerance, int row, int col, CornerLook& corner)
+                   float tolerance, float min_corr, int row, int col, CornerLook& corner)
 {
-  constexpr float MIN_CORRELATION = 0.9F;
   constexpr float MIN_CONTRAST_SHARE = 0.4F;
   LocalFrame predicted;
   if (model != nullptr)
@@ -40,7 +41,7 @@ bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeMo
   query.sign = lattice.sign(row, col);
   query.tolerance = tolerance;
   query.contrast = contrast;
-  query.correlation = MIN_CORRELATION;
+  query.correlation = min_corr;
   corner = looker.look(predicted, query);
   if (!corner.found || corner.contrast < MIN_CONTRAST_SHARE * contrast)
   {
@@ -60,11 +61,11 @@ bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeMo
   return true;
 }
 
-bool isWithinReach(const Lattice& lattice, int row, int col)
+bool isWithinReach(const Lattice& lattice, int row, int col, int reach)
 {
-  for (int i = std::max(0, row - REACH); i <= std::min(Lattice::SIZE - 1, row + REACH); ++i)
+  for (int i = std::max(0, row - reach); i <= std::min(Lattice::SIZE - 1, row + reach); ++i)
   {
-    for (int j = std::max(0, col - REACH); j <= std::min(Lattice::SIZE - 1, col + REACH); ++j)
+    for (int j = std::max(0, col - reach); j <= std::min(Lattice::SIZE - 1, col + reach); ++j)
     {
       if (lattice.found(i, j))
       {
@@ -86,10 +87,15 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
   {
     LatticeModel::Terms terms;
     float tolerance;  // squares
+    int reach;        // squares
+    float correlation;
   };
-  constexpr std::array<Attempt, 3> ATTEMPTS = {
-      {{LatticeModel::homography, 0.2F}, {LatticeModel::robust_homography, 0.2F}, {LatticeModel::homography, 0.3F}}};
-  constexpr double MAX_RESIDUAL = 0.06;  // squares, at which one homography still says where the next square is
+  constexpr std::array<Attempt, 4> ATTEMPTS = {{{LatticeModel::homography, 0.2F, REACH, 0.9F},
+                                                {LatticeModel::robust_homography, 0.2F, REACH, 0.9F},
+                                                {LatticeModel::homography, 0.3F, REACH, 0.9F},
+                                                {LatticeModel::homography, 0.1F, FAR_REACH, 0.95F}}};
+  constexpr double MAX_RESIDUAL = 0.06;         // squares, at which one homography still says where the next square is
+  constexpr float MIN_FAR_CORRELATION = 0.99F;  // of the lattice; below fences a far jump meets the next board
   struct Find
   {
     int row, col;
@@ -102,7 +108,7 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
     int reach[4] = {};
     for (const Side side : SIDES)
     {
-      reach[side] = lookAtBorder(lattice, looker.frame(), side, 1).ends() ? 0 : REACH;
+      reach[side] = lookAtBorder(lattice, looker.frame(), side, 1).ends() ? 0 : ATTEMPTS[attempt].reach;
     }
     const bool is_closed = std::all_of(std::begin(reach), std::end(reach), [](int squares) { return squares == 0; });
     if (is_closed && lattice.count() == box.area())
@@ -113,6 +119,10 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
     const bool fits =
         model.fit(lattice, ATTEMPTS[attempt].terms, 0) &&
         model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + box.height / 2., box.x + box.width / 2.));
+    if (ATTEMPTS[attempt].reach > REACH && !(fits && latticeEvidence(lattice).correlation >= MIN_FAR_CORRELATION))
+    {
+      return;
+    }
     const float contrast = lattice.medianContrast();
     std::vector<Find> finds;
     for (int i = box.y - reach[top]; i < box.br().y + reach[bottom]; ++i)
@@ -120,9 +130,9 @@ void jumpGaps(Lattice& lattice, CornerLooker& looker)
       for (int j = box.x - reach[left]; j < box.br().x + reach[right]; ++j)
       {
         Find find{i, j, {}};
-        if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j) &&
-            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, ATTEMPTS[attempt].tolerance, i, j,
-                          find.corner))
+        if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j, ATTEMPTS[attempt].reach) &&
+            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, ATTEMPTS[attempt].tolerance,
+                          ATTEMPTS[attempt].correlation, i, j, find.corner))
         {
           finds.push_back(find);
         }
