@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "checkerboards/board_judgement.h"
 #include "checkerboards/edge_growth.h"
 #include "render.h"
 
@@ -86,6 +89,20 @@ TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)
   EXPECT_FALSE(border.ends());
   EXPECT_TRUE(border.isLast());
   EXPECT_FALSE(omr::lookAtEdgeLine(frame, model, lattice, omr::bottom, -1, ratio).isLast());
+}
+
+TEST(EdgeLine, aThirdOfItsCornersHoldsTheOutermostLine)
+{
+  std::array<omr::SideEvidence, 4> sides;
+  sides.fill(omr::SideEvidence::doubtful_border);
+  Lattice lattice = firstRows(ROWS - 1);
+  for (int i = 2; i < ROWS - 1; ++i)
+  {
+    lattice.remove(Lattice::SEED + i, Lattice::SEED);
+  }
+  EXPECT_TRUE(omr::isBoardOfEdges(lattice, sides));
+  lattice.remove(Lattice::SEED, Lattice::SEED);
+  EXPECT_FALSE(omr::isBoardOfEdges(lattice, sides));
 }
 
 TEST(EdgeGrowth, growsWhereRingsDoNot)

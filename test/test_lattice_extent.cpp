@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "checkerboards/lattice.h"
+#include "checkerboards/lattice_gaps.h"
 #include "checkerboards/lattice_growth.h"
 #include "render.h"
 
@@ -34,6 +35,26 @@ TEST(LatticeExtent, aSingleCornerBeyondAWholeLineIsTheBackgrounds)
   ASSERT_EQ(cv::Size(10, 6), lattice.box.size()) << "nothing of the background resembles a corner";
   settleExtent(lattice, looker);
   EXPECT_EQ(cv::Size(9, 6), lattice.box.size());
+}
+
+TEST(LatticeGaps, aClearLatticeGoesOnBehindAWideThing)
+{
+  const cv::Matx33d truth = omr::test::boardHomography(6, 10, {320, 240}, 30, 12, 10);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  Render render({640, 480});
+  render.addBoard(6, 10, truth);
+  render.addPolygon({at(3.3, -3), at(7.3, -3), at(7.7, 9), at(3.7, 9)}, {40, 150, 200});  // over four lines of corners
+  const Frame frame = omr::makeFrame(render.picture());
+  CornerLooker looker(frame, 10000);
+  const LocalFrame seed{at(2, 3), at(3, 3) - at(2, 3), at(2, 4) - at(2, 3)};
+  const CornerLook corner = looker.look(seed, CornerQuery());
+  ASSERT_TRUE(corner.found);
+  Lattice lattice;
+  lattice.start(seed, corner);
+  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  ASSERT_EQ(cv::Size(3, 5), lattice.box.size());
+  jumpGaps(lattice, looker);
+  EXPECT_EQ(cv::Size(9, 5), lattice.box.size());
 }
 
 int main(int argc, char** argv)
