@@ -12,8 +12,7 @@ namespace
 {
 constexpr double RIDGE = 0.1;
 constexpr double SMOOTH_RIDGE = 0.5;
-constexpr float MAX_BEYOND = 0.4F;   // of sides where boards end 0.38 is the most, where they go on 0.5 the least
-constexpr float MIN_CROSSED = 0.5F;  // there 0.42 is the most; what hides the squares beyond may leave their corners
+constexpr float MAX_BEYOND = 0.4F;  // of sides where boards end 0.38 is the most, where they go on 0.5 the least
 
 /** Counts which of some places are as expected. */
 struct Share
@@ -72,7 +71,7 @@ bool EdgeLine::isLast() const
 
 bool EdgeLine::goesOn() const
 {
-  return beyond > MAX_BEYOND || std::min(dark, light) >= MIN_CROSSED;
+  return beyond > MAX_BEYOND;
 }
 
 bool fitEdges(const Lattice& lattice, bool exact, LatticeModel& model)
