@@ -91,6 +91,23 @@ TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)
   EXPECT_FALSE(omr::lookAtEdgeLine(frame, model, lattice, omr::bottom, -1, ratio).isLast());
 }
 
+TEST(EdgeLine, aLatticeThatGoesOnBelowAThingDoesNotEnd)
+{
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  // Over the squares beyond, not over their corners with those inside.
+  render.addPolygon({corner(-2, 5.15), corner(COLS + 2, 5.15), corner(COLS + 2, 9), corner(-2, 9)},
+                    cv::Scalar::all(150));
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  const Lattice lattice = firstRows(ROWS - 3);
+  omr::LatticeModel model;
+  ASSERT_TRUE(omr::fitEdges(lattice, true, model));
+  const omr::EdgeLine line = omr::lookAtEdgeLine(frame, model, lattice, omr::bottom, 1, 1.8F);
+  EXPECT_FALSE(line.ends());
+  EXPECT_FALSE(line.isLast());
+}
+
 TEST(EdgeLine, aThirdOfItsCornersHoldsTheOutermostLine)
 {
   std::array<omr::SideEvidence, 4> sides;

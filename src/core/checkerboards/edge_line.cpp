@@ -65,8 +65,8 @@ bool EdgeLine::ends() const
 
 bool EdgeLine::isLast() const
 {
-  // Of squares cut in half one edge in two is there.
-  return inside >= 0.25F && beyond <= 0.25F * inside && light <= std::max(0.15F, dark);
+  // Of squares cut in half one edge in two is there; where the lattice goes on below a thing 0.61 of the light end.
+  return inside >= 0.25F && beyond <= 0.25F * inside && light <= std::max(0.15F, std::min(dark, 0.6F));
 }
 
 bool EdgeLine::goesOn() const
