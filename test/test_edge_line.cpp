@@ -97,7 +97,7 @@ TEST(EdgeLine, aLatticeThatGoesOnBelowAThingDoesNotEnd)
   render.addBoard(ROWS, COLS, place());
   const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
   // Over the squares beyond, not over their corners with those inside.
-  render.addPolygon({corner(-2, 5.15), corner(COLS + 2, 5.15), corner(COLS + 2, 9), corner(-2, 9)},
+  render.addPolygon({corner(-2, 5.27), corner(COLS + 2, 5.27), corner(COLS + 2, 9), corner(-2, 9)},
                     cv::Scalar::all(150));
   const Frame frame = omr::makeFrame(render.picture(0.8));
   const Lattice lattice = firstRows(ROWS - 3);
