@@ -21,7 +21,7 @@ constexpr int FAR_REACH = 5;  // where the surface says to a tenth of a square w
 
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
 bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast,
-                   float tolerance, float min_corr, int row, int col, CornerLook& corner)
+                   float tolerance, float min_correlation, int row, int col, CornerLook& corner)
 {
   constexpr float MIN_CONTRAST_SHARE = 0.4F;
   LocalFrame predicted;
@@ -41,7 +41,7 @@ bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeMo
   query.sign = lattice.sign(row, col);
   query.tolerance = tolerance;
   query.contrast = contrast;
-  query.correlation = min_corr;
+  query.correlation = min_correlation;
   corner = looker.look(predicted, query);
   if (!corner.found || corner.contrast < MIN_CONTRAST_SHARE * contrast)
   {
