@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <opencv2/ml.hpp>
 #include <sstream>
 
 #include "network_training.h"
@@ -33,6 +35,65 @@ omr::WindowSet windowsToLearn()
     windows.append(features.data(), features.data(), label);
   }
   return windows;
+}
+
+FeedForward learned(const omr::WindowSet& windows, const cv::Mat& inputs, int hidden, int epochs, bool varied = false)
+{
+  const std::vector<float> weights(windows.labels.size(), 1);
+  return omr::trainNetwork({inputs, windows.labels, weights}, hidden, epochs, varied);
+}
+
+/** OpenCV's network, trained a little. */
+cv::Ptr<cv::ml::ANN_MLP> networkOfOpenCv(const omr::WindowSet& windows, int hidden)
+{
+  cv::Mat answers(windows.features.rows, omr::MARKER_KINDS, CV_32FC1, cv::Scalar(-1));
+  for (int i = 0; i < answers.rows; ++i)
+  {
+    if (windows.labels[i] != WindowLabel::clutter)
+    {
+      answers.at<float>(i, static_cast<int>(windows.labels[i])) = 1;
+    }
+  }
+  const cv::Ptr<cv::ml::ANN_MLP> network = cv::ml::ANN_MLP::create();
+  network->setLayerSizes(cv::Mat(cv::Vec3i(windows.features.cols, hidden, omr::MARKER_KINDS)));
+  network->setActivationFunction(cv::ml::ANN_MLP::SIGMOID_SYM, 1, 1);
+  network->setTermCriteria({cv::TermCriteria::COUNT, 1, 0});
+  network->setTrainMethod(cv::ml::ANN_MLP::BACKPROP, .01, .5);
+  network->train(cv::ml::TrainData::create(windows.features, cv::ml::ROW_SAMPLE, answers),
+                 cv::ml::ANN_MLP::NO_OUTPUT_SCALE | cv::ml::ANN_MLP::NO_INPUT_SCALE);
+  return network;
+}
+
+/** OpenCV has the weights of layers 1 and 2 with the bias in the last row. */
+FeedForward toFeedForward(const cv::ml::ANN_MLP& network)
+{
+  FeedForward copy;
+  for (const int layer : {1, 2})
+  {
+    const cv::Mat weights = network.getWeights(layer);
+    for (int unit = 0; unit < weights.cols; ++unit)
+    {
+      copy.weights.push_back(static_cast<float>(weights.at<double>(weights.rows - 1, unit)));
+      for (int i = 0; i + 1 < weights.rows; ++i)
+      {
+        copy.weights.push_back(static_cast<float>(weights.at<double>(i, unit)));
+      }
+    }
+    copy.hidden = layer == 1 ? weights.cols : copy.hidden;
+  }
+  return copy;
+}
+
+/** A window whose one block is lighter, or darker, than the others. */
+std::vector<float> windowWithBlock(int block, float light, cv::RNG& random)
+{
+  std::vector<float> features(HAAR_FEATURES);
+  for (float& feature : features)
+  {
+    feature = static_cast<float>(random.gaussian(1));
+  }
+  features[HAAR_FEATURES - omr::BLOCK_FEATURES * (omr::HAAR_BLOCKS - block)] = light;
+  return features;
 }
 
 std::string temporaryFile(const std::string& text)
@@ -93,28 +154,83 @@ void expectRefused(const std::string& text, const std::string& words)
 TEST(MarkerNetwork, givesWhatTheNetworkOfOpenCvGives)
 {
   const omr::WindowSet windows = windowsToLearn();
-  const cv::Ptr<cv::ml::ANN_MLP> trained = omr::trainNetwork(windows.features, windows.labels, 9, 3);
-  const omr::FeedForward network = omr::toFeedForward(*trained, {});
+  const cv::Ptr<cv::ml::ANN_MLP> opencv = networkOfOpenCv(windows, 9);
+  const FeedForward network = toFeedForward(*opencv);
   cv::Mat expected;
-  trained->predict(windows.features, expected);
-  int right = 0;
+  opencv->predict(windows.features, expected);
   for (int i = 0; i < windows.features.rows; ++i)
   {
     const omr::MarkerScores scores = omr::markerScores(network, HAAR_FEATURES, windows.features.ptr<float>(i));
     ASSERT_NEAR(expected.at<float>(i, 0), scores[0], 1e-5);
     ASSERT_NEAR(expected.at<float>(i, 1), scores[1], 1e-5);
+  }
+}
+
+TEST(MarkerNetwork, learnsWhatTellsTheKinds)
+{
+  const omr::WindowSet windows = windowsToLearn();
+  const FeedForward network = learned(windows, windows.features, 9, 60);
+  int right = 0;
+  for (int i = 0; i < windows.features.rows; ++i)
+  {
+    const omr::MarkerScores scores = omr::markerScores(network, HAAR_FEATURES, windows.features.ptr<float>(i));
     right += static_cast<int>((scores[0] > 0) == (windows.labels[i] == WindowLabel::checkerboard) &&
                               (scores[1] > 0) == (windows.labels[i] == WindowLabel::target));
   }
   EXPECT_GT(right, 2950) << "of 3000";
 }
 
+TEST(MarkerNetwork, learnsAWindowTurnedMirroredAndInverted)
+{
+  cv::RNG random(3);
+  omr::WindowSet windows;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const bool marker = i % 2 == 0;
+    const std::vector<float> window = windowWithBlock(marker ? 1 : 5, 8, random);
+    windows.append(window.data(), window.data(), marker ? WindowLabel::checkerboard : WindowLabel::clutter);
+  }
+  const auto share_found = [&](const FeedForward& network, const std::vector<int>& blocks) {
+    int found = 0;
+    for (int i = 0; i < 1000; ++i)
+    {
+      const std::vector<float> window = windowWithBlock(blocks[i % blocks.size()], i % 3 == 0 ? 8.F : -8.F, random);
+      found += static_cast<int>(omr::markerScores(network, HAAR_FEATURES, window.data())[0] > 0);
+    }
+    return found / 1000.;
+  };
+  const FeedForward varied = learned(windows, windows.features, 16, 60, true);
+  EXPECT_GT(share_found(varied, {1, 2, 4, 7, 8, 11, 13, 14}), .9);
+  EXPECT_LT(share_found(varied, {5, 6, 9, 10}), .1) << "clutter";
+  EXPECT_LT(share_found(learned(windows, windows.features, 16, 60), {2, 4, 7, 8, 11, 13, 14}), .7) << "as they are";
+}
+
+TEST(MarkerNetwork, learnsWhatCountsMore)
+{
+  const omr::WindowSet windows = windowsToLearn();
+  std::vector<WindowLabel> labels(windows.labels.size());
+  std::vector<float> weights(labels.size());
+  for (const WindowLabel heavy : {WindowLabel::checkerboard, WindowLabel::target})
+  {
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      labels[i] = i % 2 == 0 ? WindowLabel::checkerboard : WindowLabel::target;
+      weights[i] = labels[i] == heavy ? 10 : 1;
+    }
+    const FeedForward network = omr::trainNetwork({windows.features, labels, weights}, 2, 30, false);
+    double mean = 0;
+    for (int i = 0; i < windows.features.rows; ++i)
+    {
+      mean += omr::markerScores(network, HAAR_FEATURES, windows.features.ptr<float>(i))[static_cast<int>(heavy)];
+    }
+    EXPECT_GT(mean / windows.features.rows, .4);
+  }
+}
+
 TEST(MarkerNetwork, equalWindowsGiveEqualNetworks)
 {
   const omr::WindowSet windows = windowsToLearn();
-  const auto trained = [&] {
-    return omr::toFeedForward(*omr::trainNetwork(windows.features, windows.labels, 4, 1), {}).weights;
-  };
+  const auto trained = [&] { return learned(windows, windows.features, 4, 1, true).weights; };
   EXPECT_EQ(trained(), trained());
 }
 
@@ -122,9 +238,10 @@ TEST(MarkerNetwork, readsWhatIsWritten)
 {
   const omr::WindowSet windows = windowsToLearn();
   MarkerNetwork network;
-  static_cast<FeedForward&>(network) =
-      omr::toFeedForward(*omr::trainNetwork(windows.features, windows.labels, 5, 1), {.75F, .125F});
-  network.gate = omr::toFeedForward(*omr::trainNetwork(windows.gate, windows.labels, 3, 1), {-.5F, -.25F});
+  static_cast<FeedForward&>(network) = learned(windows, windows.features, 5, 1);
+  network.thresholds = {.75F, .125F};
+  network.gate = learned(windows, windows.gate, 3, 1);
+  network.gate.thresholds = {-.5F, -.25F};
   network.boxes[0] = {{1, 2, 3, 4}, -1.5F, 2.5F};
   network.boxes[1] = {{5, 6, 7, 8}, .5F, 3.5F};
   const MarkerNetwork read = omr::loadMarkerNetwork(temporaryFile("# a comment\n" + textOf(network)));

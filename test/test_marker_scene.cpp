@@ -76,13 +76,14 @@ TEST(TrainingWindows, whatTheGateRejectsHasNoFeatures)
   omr::FeedForward gate;
   gate.hidden = 1;
   gate.weights.assign(omr::GATE_INPUTS + 1 + 2 * 2, 0);  // scores of 0
+  const auto all_drawn = [](WindowLabel /*label*/) { return true; };
   const auto any = [](const float* /*features*/, WindowLabel /*label*/) { return true; };
   omr::WindowSet all;
-  omr::addWindows(image, {}, gate, any, all);
+  omr::addWindows(image, {}, gate, all_drawn, any, all);
   EXPECT_EQ(0U, all.labels.size()) << "thresholds of 1";
   EXPECT_GT(all.plain_clutter, 0);
   gate.thresholds = {1, -.5F};
-  omr::addWindows(image, {}, gate, any, all);
+  omr::addWindows(image, {}, gate, all_drawn, any, all);
   EXPECT_GT(all.labels.size(), 0U);
   EXPECT_EQ(static_cast<int>(all.labels.size()), all.features.rows);
   EXPECT_EQ(static_cast<int>(all.labels.size()), all.gate.rows);

@@ -13,7 +13,7 @@ namespace omr
 int windowCount(const cv::Size& size);
 
 /** A score from which on the neighbours of a window are looked at as well, whether they pass the gate or not. */
-constexpr float FOLLOWED_SCORE = -.98F;
+constexpr float FOLLOWED_SCORE = -.85F;
 
 /**
  * The network's scores of all windows, level by level, row by row. The gate looks at every second window of every

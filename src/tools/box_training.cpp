@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "outdoor_omr/window_scores.h"
 
@@ -18,33 +17,6 @@ constexpr double TOUCHED = .1;
 
 /** Keeps weights finite where boxes can be told apart without a mistake. */
 constexpr double RIDGE = 1e-2;
-
-cv::Rect boxOf(const PlacedMarker& marker)
-{
-  std::vector<cv::Point2f> outline;
-  const auto add = [&](double x, double y) {
-    const cv::Vec3d at = marker.to_pixels * cv::Vec3d(x, y, 1);
-    outline.emplace_back(static_cast<float>(at[0] / at[2]), static_cast<float>(at[1] / at[2]));
-  };
-  if (marker.kind == MarkerKind::checkerboard)
-  {
-    const cv::Size& squares = marker.squares;
-    add(0, 0);
-    add(squares.width, 0);
-    add(squares.width, squares.height);
-    add(0, squares.height);
-  }
-  else
-  {
-    constexpr int POINTS = 32;
-    const auto radius = static_cast<double>(marker.colors.size());
-    for (int i = 0; i < POINTS; ++i)
-    {
-      add(radius * std::cos(2 * CV_PI * i / POINTS), radius * std::sin(2 * CV_PI * i / POINTS));
-    }
-  }
-  return cv::boundingRect(outline);
-}
 
 void addBoxes(const MarkerScene& scene, const MarkerNetwork& network, std::vector<LabelledBox>& boxes)
 {

@@ -19,6 +19,9 @@ struct PlacedMarker
                           ///< of the rings
 };
 
+/** The upright box of a marker in its picture [px]. */
+cv::Rect boxOf(const PlacedMarker& marker);
+
 /** A picture with known markers. */
 struct MarkerScene
 {

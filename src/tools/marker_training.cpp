@@ -13,7 +13,13 @@ namespace
  * what the network of the round before takes for a marker. */
 constexpr double CHECKERBOARD_SHARE = .3;
 constexpr double CLUTTER_SHARE = .006;
-constexpr float HARD_SCORE = -.7F;
+constexpr float HARD_SCORE = -.8F;
+
+/** Share of the windows with a marker that the gate loses where hard clutter is looked for. */
+constexpr double LOST_IN_TRAINING = .03;
+
+/** How much clutter that is drawn counts: less than it stands for, because hard clutter is learned from again. */
+constexpr float CLUTTER_WEIGHT = 10;
 
 void printCounts(const char* name, const WindowSet& windows)
 {
@@ -26,7 +32,8 @@ void printCounts(const char* name, const WindowSet& windows)
             << " on clutter" << std::endl;
 }
 
-/** The thresholds at which the gate loses a share of the windows of each kind. */
+}  // namespace
+
 MarkerScores gateThresholds(const FeedForward& gate, const WindowSet& windows, double lost)
 {
   std::array<std::vector<float>, MARKER_KINDS> scores;
@@ -50,35 +57,40 @@ MarkerScores gateThresholds(const FeedForward& gate, const WindowSet& windows, d
   }
   return thresholds;
 }
-}  // namespace
 
 MarkerNetwork trainMarkerNetwork(const TrainingPictures& pictures, const TrainingOptions& options)
 {
-  const TrainingPictures::Wanted some = [](cv::RNG& random, const float* /*features*/, WindowLabel label) {
+  const TrainingPictures::Drawn some = [](cv::RNG& random, WindowLabel label) {
     return label == WindowLabel::target ||
            random.uniform(0., 1.) < (label == WindowLabel::checkerboard ? CHECKERBOARD_SHARE : CLUTTER_SHARE);
   };
   const unsigned seed = 8 * options.seed;
-  WindowSet windows = pictures.windows(true, seed, {}, some);
-  windows.append(pictures.windows(false, seed + 1, {}, some));
+  WindowSet windows = pictures.windows(true, seed, {}, some, TrainingPictures::any);
+  windows.append(pictures.windows(false, seed + 1, {}, some, TrainingPictures::any));
   printCounts("training", windows);
   MarkerNetwork network;
   FeedForward& gate = network.gate;
-  gate = toFeedForward(*trainNetwork(windows.gate, windows.labels, options.gate, options.epochs), {});
-  gate.thresholds = gateThresholds(gate, windows, options.lost);
+  std::vector<float> weights(windows.labels.size(), 1);
+  gate = trainNetwork({windows.gate, windows.labels, weights}, options.gate, options.epochs, false);
+  gate.thresholds = gateThresholds(gate, windows, LOST_IN_TRAINING);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    weights[i] = windows.labels[i] == WindowLabel::clutter ? CLUTTER_WEIGHT : 1;
+  }
   for (int round = 0; round < options.rounds; ++round)
   {
-    const TrainingPictures::Wanted hard = [&](cv::RNG& /*random*/, const float* features, WindowLabel /*label*/) {
+    const TrainingPictures::Wanted hard = [&](const float* features, WindowLabel /*label*/) {
       const MarkerScores scores = markerScores(network, features);
       return std::max(scores[0], scores[1]) > HARD_SCORE;
     };
     if (round > 0)
     {
-      windows.append(pictures.windows(false, seed + 1 + round, gate, hard));
+      windows.append(pictures.windows(false, seed + 1 + round, gate, TrainingPictures::all, hard));
+      weights.resize(windows.labels.size(), 1);
       printCounts("with hard clutter", windows);
     }
     static_cast<FeedForward&>(network) =
-        toFeedForward(*trainNetwork(windows.features, windows.labels, options.hidden, options.epochs), {1, 1});
+        trainNetwork({windows.features, windows.labels, weights}, options.hidden, options.epochs, true);
   }
   return network;
 }

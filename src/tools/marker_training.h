@@ -8,9 +8,8 @@ namespace omr
 {
 struct TrainingOptions
 {
-  int hidden = 48;
-  int gate = 16;      ///< units of the gate
-  double lost = .05;  ///< share of the windows with a marker that the gate may lose
+  int hidden = 64;
+  int gate = 16;  ///< units of the gate
   int epochs = 12;
   int rounds = 3;  ///< trainings; after each, hard clutter is added
   unsigned seed = 1;
@@ -19,6 +18,9 @@ struct TrainingOptions
 /** A network with its gate that tells the windows of pictures; it has no thresholds yet. Says on standard output what
  * it learns from. */
 MarkerNetwork trainMarkerNetwork(const TrainingPictures& pictures, const TrainingOptions& options);
+
+/** The thresholds at which the gate loses a share of the windows of each kind. */
+MarkerScores gateThresholds(const FeedForward& gate, const WindowSet& windows, double lost);
 
 }  // namespace omr
 

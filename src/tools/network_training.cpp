@@ -1,17 +1,70 @@
 #include "network_training.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
+#include <numeric>
 
+#include "learner.h"
 #include "outdoor_omr/haar_features.h"
 
 namespace omr
 {
 namespace
 {
-/** Step and momentum of the descent, and what the step shrinks by in an epoch. Ten times larger steps diverge. */
-constexpr double FIRST_STEP = .01;
-constexpr double MOMENTUM = .5;
-constexpr double SHRINKING = .75;
+/** Examples between two steps, and the first step, which shrinks to nothing along half a wave. */
+constexpr int BATCH = 256;
+constexpr double FIRST_STEP = .003;
+
+constexpr std::uint64_t SEED = 1;
+
+/** Mean and deviation of each input. */
+struct Scales
+{
+  std::vector<float> mean, deviation;
+
+  explicit Scales(const cv::Mat& inputs)
+  {
+    for (int i = 0; i < inputs.cols; ++i)
+    {
+      cv::Scalar average;
+      cv::Scalar spread;
+      cv::meanStdDev(inputs.col(i), average, spread);
+      mean.push_back(static_cast<float>(average[0]));
+      deviation.push_back(static_cast<float>(spread[0]) + 1e-5F);
+    }
+  }
+};
+
+/**
+ * A window as it would be had the camera been turned by quarters, the picture been mirrored, or dark and light been
+ * exchanged; what does not belong to a block stays the same. One of the 16 at random.
+ */
+void vary(const float* window, int inputs, cv::RNG& random, float* varied)
+{
+  const unsigned way = random.next();
+  const bool inverted = (way & 8U) != 0;
+  const bool transposed = (way & 4U) != 0;
+  const int others = inputs - HAAR_BLOCKS * BLOCK_FEATURES;
+  std::copy(window, window + others, varied);
+  for (int i = 0; i < HAAR_BLOCKS; ++i)
+  {
+    int row = (way & 1U) != 0 ? 3 - i / 4 : i / 4;
+    int col = (way & 2U) != 0 ? 3 - i % 4 : i % 4;
+    if (transposed)
+    {
+      std::swap(row, col);
+    }
+    const float* block = window + others + BLOCK_FEATURES * (4 * row + col);
+    float* to = varied + others + BLOCK_FEATURES * i;
+    std::copy(block, block + BLOCK_FEATURES, to);
+    to[0] = inverted ? -to[0] : to[0];
+    if (transposed)
+    {
+      std::swap(to[3], to[4]);
+    }
+  }
+}
 
 void writeUnits(std::ostream& stream, const float*& weights, int units, int inputs, const std::string& indent)
 {
@@ -48,65 +101,38 @@ void writeEvidence(std::ostream& stream, const char* kind, const BoxEvidence& ev
 }
 }  // namespace
 
-cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const cv::Mat& inputs, const std::vector<WindowLabel>& labels, int hidden,
-                                      int epochs)
+FeedForward trainNetwork(const Examples& examples, int hidden, int epochs, bool varied)
 {
-  cv::Mat answers(inputs.rows, MARKER_KINDS, CV_32FC1, cv::Scalar(-1));
-  for (int i = 0; i < answers.rows; ++i)
-  {
-    if (labels[i] == WindowLabel::checkerboard || labels[i] == WindowLabel::target)
-    {
-      answers.at<float>(i, static_cast<int>(labels[i])) = 1;
-    }
-  }
-  const auto data = cv::ml::TrainData::create(inputs, cv::ml::ROW_SAMPLE, answers);
-  const cv::Ptr<cv::ml::ANN_MLP> network = cv::ml::ANN_MLP::create();
-  network->setLayerSizes(cv::Mat(cv::Vec3i(inputs.cols, hidden, MARKER_KINDS)));
-  network->setActivationFunction(cv::ml::ANN_MLP::SIGMOID_SYM, 1, 1);
-  network->setTermCriteria({cv::TermCriteria::COUNT, 1, 0});
-  int flags = cv::ml::ANN_MLP::NO_OUTPUT_SCALE;
-  double step = FIRST_STEP;
+  const cv::Mat& inputs = examples.inputs;
+  cv::RNG random(SEED);
+  const Scales scales(inputs);
+  Learner learner(inputs.cols, hidden, random);
+  std::vector<int> order(inputs.rows);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<float> window(inputs.cols + 1, 1);  // the bias at the end
+  const double steps = static_cast<double>(epochs) * inputs.rows;
+  double done = 0;
   for (int epoch = 0; epoch < epochs; ++epoch)
   {
-    network->setTrainMethod(cv::ml::ANN_MLP::BACKPROP, step, MOMENTUM);
-    network->train(data, flags);
-    flags |= cv::ml::ANN_MLP::UPDATE_WEIGHTS | cv::ml::ANN_MLP::NO_INPUT_SCALE;
-    step *= SHRINKING;
-  }
-  return network;
-}
-
-FeedForward toFeedForward(const cv::ml::ANN_MLP& trained, const MarkerScores& thresholds)
-{
-  // OpenCV: layer 0 holds scale and offset of each input, 1 and 2 the weights with the bias in the last row.
-  const cv::Mat scale = trained.getWeights(0);
-  const cv::Mat first = trained.getWeights(1);
-  const cv::Mat second = trained.getWeights(2);
-  const int inputs = first.rows - 1;
-  FeedForward network;
-  network.hidden = first.cols;
-  network.thresholds = thresholds;
-  for (int unit = 0; unit < first.cols; ++unit)
-  {
-    double bias = first.at<double>(inputs, unit);
-    std::vector<float> weights;
-    for (int i = 0; i < inputs; ++i)
+    cv::randShuffle(order, 1, &random);
+    for (int i = 0; i < inputs.rows; ++i)
     {
-      bias += first.at<double>(i, unit) * scale.at<double>(0, 2 * i + 1);
-      weights.push_back(static_cast<float>(first.at<double>(i, unit) * scale.at<double>(0, 2 * i)));
-    }
-    network.weights.push_back(static_cast<float>(bias));
-    network.weights.insert(network.weights.end(), weights.begin(), weights.end());
-  }
-  for (int output = 0; output < second.cols; ++output)
-  {
-    network.weights.push_back(static_cast<float>(second.at<double>(second.rows - 1, output)));
-    for (int unit = 0; unit < first.cols; ++unit)
-    {
-      network.weights.push_back(static_cast<float>(second.at<double>(unit, output)));
+      const int example = order[i];
+      const auto* row = inputs.ptr<float>(example);
+      varied ? vary(row, inputs.cols, random, window.data()) : void(std::copy(row, row + inputs.cols, window.data()));
+      for (int k = 0; k < inputs.cols; ++k)
+      {
+        window[k] = (window[k] - scales.mean[k]) / scales.deviation[k];
+      }
+      learner.learn(window.data(), examples.labels[example], examples.weights[example] / BATCH);
+      ++done;
+      if ((i + 1) % BATCH == 0 || i + 1 == inputs.rows)
+      {
+        learner.step(FIRST_STEP * .5 * (1 + std::cos(CV_PI * done / steps)));
+      }
     }
   }
-  return network;
+  return learner.network(scales.mean, scales.deviation);
 }
 
 void writeMarkerNetwork(std::ostream& stream, const MarkerNetwork& network)

@@ -1,7 +1,7 @@
 #ifndef OUTDOOR_OMR_TOOLS_NETWORK_TRAINING_H
 #define OUTDOOR_OMR_TOOLS_NETWORK_TRAINING_H
 
-#include <opencv2/ml.hpp>
+#include <opencv2/core.hpp>
 #include <ostream>
 
 #include "outdoor_omr/marker_network.h"
@@ -9,18 +9,22 @@
 
 namespace omr
 {
-/**
- * Trains OpenCV's network by stochastic gradient descent, with steps that shrink from pass to pass. Equal windows
- * give equal networks: OpenCV starts from weights of its own seed.
- *
- * @param inputs of each window, a row: WindowSet::features or WindowSet::gate.
- * @param epochs passes over the windows.
- */
-cv::Ptr<cv::ml::ANN_MLP> trainNetwork(const cv::Mat& inputs, const std::vector<WindowLabel>& labels, int hidden,
-                                      int epochs);
+/** What a network learns from: rows of inputs, what they show, and how much each counts. */
+struct Examples
+{
+  const cv::Mat& inputs;  ///< WindowSet::features or WindowSet::gate
+  const std::vector<WindowLabel>& labels;
+  const std::vector<float>& weights;
+};
 
-/** The same network, its scales of the inputs folded into the weights. @param thresholds of it. */
-FeedForward toFeedForward(const cv::ml::ANN_MLP& trained, const MarkerScores& thresholds);
+/**
+ * Trains a network by gradient descent in batches. Equal examples give equal networks.
+ *
+ * @param epochs passes over the examples.
+ * @param varied whether a window is learned from as it would be turned, mirrored and with dark and light exchanged, in
+ *               each pass another way.
+ */
+FeedForward trainNetwork(const Examples& examples, int hidden, int epochs, bool varied);
 
 /** Writes what loadMarkerNetwork() reads. */
 void writeMarkerNetwork(std::ostream& stream, const MarkerNetwork& network);

@@ -24,6 +24,7 @@ struct Options : omr::TrainingOptions
   std::string network;
   int scenes = 3000;
   int held_out = 4;
+  double lost = .05;
   double precision = .9995;
   double enlarged = .5;
   double shown = .05;
@@ -37,15 +38,24 @@ omr::ScoreCounts holdOut(const omr::TrainingPictures& pictures, const omr::Marke
 {
   omr::ScoreCounts counts;
   std::mutex mutex;
-  const omr::TrainingPictures::Wanted score = [&](cv::RNG& /*random*/, const float* features, omr::WindowLabel label) {
+  const omr::TrainingPictures::Wanted score = [&](const float* features, omr::WindowLabel label) {
     const omr::MarkerScores scores = omr::markerScores(network, features);
     const std::lock_guard<std::mutex> lock(mutex);
     counts.add(label, scores);
     return false;
   };
-  counts.addPlain(pictures.windows(true, HELD_OUT_SEED, network.gate, score));
-  counts.addPlain(pictures.windows(false, HELD_OUT_SEED + 1, network.gate, score));
+  counts.addPlain(pictures.windows(true, HELD_OUT_SEED, network.gate, omr::TrainingPictures::all, score));
+  counts.addPlain(pictures.windows(false, HELD_OUT_SEED + 1, network.gate, omr::TrainingPictures::all, score));
   return counts;
+}
+
+/** The windows with a marker of pictures that training has not seen. */
+omr::WindowSet heldOutMarkers(const omr::TrainingPictures& pictures)
+{
+  const omr::TrainingPictures::Drawn marker = [](cv::RNG& /*random*/, omr::WindowLabel label) {
+    return label != omr::WindowLabel::clutter;
+  };
+  return pictures.windows(true, HELD_OUT_SEED, {}, marker, omr::TrainingPictures::any);
 }
 
 /** The smallest threshold from which on the precision holds; the largest one if none does. */
@@ -129,6 +139,10 @@ void run(const Options& options, const std::string& command)
                                    ? asWritten(omr::trainMarkerNetwork({learned, options.scenes}, options))
                                    : omr::loadMarkerNetwork(options.network);
   const omr::TrainingPictures pictures(held, std::max(1, options.scenes / options.held_out));
+  if (network.gate.hidden > 0)
+  {
+    network.gate.thresholds = omr::gateThresholds(network.gate, heldOutMarkers(pictures), options.lost);
+  }
   const omr::ScoreCounts counts = holdOut(pictures, network);
   for (const omr::MarkerKind kind : {omr::MarkerKind::checkerboard, omr::MarkerKind::target})
   {
@@ -171,7 +185,7 @@ void declare(CLI::App& app, Options& options)
   app.add_option("--gate", options.gate, "units of the gate, which looks at all windows first")
       ->capture_default_str()
       ->check(CLI::Range(1, omr::MAX_GATE_UNITS));
-  app.add_option("--lost", options.lost, "share of the windows with a marker that the gate may lose")
+  app.add_option("--lost", options.lost, "share of the held-out windows with a marker that the gate may lose")
       ->capture_default_str()
       ->check(CLI::Range(0., 1.));
   app.add_option("--epochs", options.epochs, "passes over the windows")

@@ -9,6 +9,16 @@ TrainingPictures::TrainingPictures(const std::vector<cv::Mat>& photographs, int 
 {
 }
 
+bool TrainingPictures::all(cv::RNG& /*random*/, WindowLabel /*label*/)
+{
+  return true;
+}
+
+bool TrainingPictures::any(const float* /*features*/, WindowLabel /*label*/)
+{
+  return true;
+}
+
 int TrainingPictures::withMarkers() const
 {
   return scenes_;
@@ -19,7 +29,7 @@ int TrainingPictures::withoutMarkers() const
   return static_cast<int>(photographs_.size()) + scenes_ / 2;
 }
 
-const cv::Mat& TrainingPictures::any(cv::RNG& random) const
+const cv::Mat& TrainingPictures::anyPhotograph(cv::RNG& random) const
 {
   return photographs_[random.uniform(0, static_cast<int>(photographs_.size()))];
 }
@@ -28,11 +38,11 @@ MarkerScene TrainingPictures::picture(bool with_markers, int i, cv::RNG& random)
 {
   if (with_markers)
   {
-    return renderMarkerScene(any(random), random);
+    return renderMarkerScene(anyPhotograph(random), random);
   }
   MarkerScene plain;
   const int count = static_cast<int>(photographs_.size());
-  plain.image = i < count ? photographs_[i] : renderClutterScene(any(random), random);
+  plain.image = i < count ? photographs_[i] : renderClutterScene(anyPhotograph(random), random);
   return plain;
 }
 
@@ -49,14 +59,13 @@ void TrainingPictures::forEach(bool with_markers, unsigned seed,
   });
 }
 
-WindowSet TrainingPictures::windows(bool with_markers, unsigned seed, const FeedForward& gate,
+WindowSet TrainingPictures::windows(bool with_markers, unsigned seed, const FeedForward& gate, const Drawn& drawn,
                                     const Wanted& wanted) const
 {
   std::vector<WindowSet> parts(with_markers ? withMarkers() : withoutMarkers());
   forEach(with_markers, seed, [&](int i, cv::RNG& random, const MarkerScene& scene) {
     addWindows(
-        scene.image, scene.markers, gate,
-        [&](const float* features, WindowLabel label) { return wanted(random, features, label); }, parts[i]);
+        scene.image, scene.markers, gate, [&](WindowLabel label) { return drawn(random, label); }, wanted, parts[i]);
   });
   WindowSet all;
   for (const WindowSet& part : parts)

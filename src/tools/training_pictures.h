@@ -15,7 +15,11 @@ namespace omr
 class TrainingPictures
 {
  public:
-  using Wanted = std::function<bool(cv::RNG&, const float*, WindowLabel)>;
+  using Drawn = std::function<bool(cv::RNG&, WindowLabel)>;
+  using Wanted = std::function<bool(const float*, WindowLabel)>;
+
+  static bool all(cv::RNG& random, WindowLabel label);
+  static bool any(const float* features, WindowLabel label);
 
   /** @param scenes with markers; there are half as many with patterns. */
   TrainingPictures(const std::vector<cv::Mat>& photographs, int scenes);
@@ -23,16 +27,17 @@ class TrainingPictures
   int withMarkers() const;
   int withoutMarkers() const;
 
-  /** The windows that are wanted, of all pictures with markers or of all without. @param gate, wanted of addWindows().
-   */
-  WindowSet windows(bool with_markers, unsigned seed, const FeedForward& gate, const Wanted& wanted) const;
+  /** The windows that are wanted, of all pictures with markers or of all without. @param gate, drawn, wanted of
+   * addWindows(). */
+  WindowSet windows(bool with_markers, unsigned seed, const FeedForward& gate, const Drawn& drawn,
+                    const Wanted& wanted) const;
 
   /** Calls with (i, random, scene) of all pictures with markers or of all without; in parallel. */
   void forEach(bool with_markers, unsigned seed,
                const std::function<void(int, cv::RNG&, const MarkerScene&)>& call) const;
 
  private:
-  const cv::Mat& any(cv::RNG& random) const;
+  const cv::Mat& anyPhotograph(cv::RNG& random) const;
   MarkerScene picture(bool with_markers, int i, cv::RNG& random) const;
 
   const std::vector<cv::Mat>& photographs_;

@@ -17,6 +17,8 @@ struct Units
 };
 constexpr std::array<Units, MARKER_KINDS> UNITS = {Units{1.45, 3.1, 1., 4.5}, Units{.9, 1.9, .6, 2.8}};
 
+constexpr int MARGIN = 4;  // of a marker's box, whose circles have corners [px]
+
 constexpr double MIN_SHARE = .7;        // of a window on a board
 constexpr double MAX_OFF_CENTER = 1.8;  // of a window on a target [cells]
 
@@ -129,13 +131,30 @@ void WindowSet::append(const WindowSet& other)
 }
 
 void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers, const FeedForward& gate,
+                const std::function<bool(WindowLabel label)>& drawn,
                 const std::function<bool(const float* features, WindowLabel label)>& wanted, WindowSet& windows)
 {
   std::array<float, HAAR_FEATURES> features = {};
   std::array<float, GATE_INPUTS> inputs = {};
+  std::vector<cv::Rect> boxes;
+  for (const PlacedMarker& marker : markers)
+  {
+    const cv::Rect box = boxOf(marker);
+    boxes.push_back(box + cv::Size(2 * MARGIN, 2 * MARGIN) - cv::Point(MARGIN, MARGIN));
+  }
+  std::vector<PlacedMarker> near;
   forEachWindow(bgr, [&](const cv::Mat& cells, const cv::Point& first, const cv::Point& index, int level) {
-    const WindowLabel label = labelOf(windowRect(index, level), level, markers);
-    if (label == WindowLabel::partly)
+    const cv::Rect window = windowRect(index, level);
+    near.clear();
+    for (std::size_t i = 0; i < markers.size(); ++i)
+    {
+      if (!(boxes[i] & window).empty())
+      {
+        near.push_back(markers[i]);
+      }
+    }
+    const WindowLabel label = labelOf(window, level, near);
+    if (label == WindowLabel::partly || !drawn(label))
     {
       return;
     }

@@ -45,9 +45,11 @@ struct WindowSet
  *
  * @param markers in the image; none in a photograph without.
  * @param gate    windows that do not pass it have no features.
+ * @param drawn   whether a window is looked at at all; features take most of the time.
  * @param wanted  of the windows with features: whether one is added.
  */
 void addWindows(const cv::Mat& bgr, const std::vector<PlacedMarker>& markers, const FeedForward& gate,
+                const std::function<bool(WindowLabel label)>& drawn,
                 const std::function<bool(const float* features, WindowLabel label)>& wanted, WindowSet& windows);
 
 }  // namespace omr
