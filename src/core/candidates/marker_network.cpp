@@ -14,13 +14,14 @@ namespace
 {
 constexpr int MAX_HIDDEN = 256;
 
-/** Bias and weights of one unit. */
-float weightedSum(const float* weights, const float* inputs, int count)
+/** Bias and weights of one unit. In float, as a device does it, the scores of large weights differ by 1e-5. */
+template <typename Input>
+double weightedSum(const float* weights, const Input* inputs, int count)
 {
-  float sum = weights[0];
+  double sum = weights[0];
   for (int i = 0; i < count; ++i)
   {
-    sum += weights[i + 1] * inputs[i];
+    sum += static_cast<double>(weights[i + 1]) * inputs[i];
   }
   return sum;
 }
@@ -91,17 +92,17 @@ MarkerNetwork readMarkerNetwork(const YamlFile& file)
 
 MarkerScores markerScores(const FeedForward& network, int inputs, const float* values)
 {
-  std::array<float, MAX_HIDDEN> hidden;
+  std::array<double, MAX_HIDDEN> hidden;
   const float* weights = network.weights.data();
   for (int unit = 0; unit < network.hidden; ++unit)
   {
-    hidden[unit] = std::tanh(.5F * weightedSum(weights, values, inputs));
+    hidden[unit] = std::tanh(.5 * weightedSum(weights, values, inputs));
     weights += inputs + 1;
   }
   MarkerScores scores = {};
   for (float& score : scores)
   {
-    score = std::tanh(.5F * weightedSum(weights, hidden.data(), network.hidden));
+    score = static_cast<float>(std::tanh(.5 * weightedSum(weights, hidden.data(), network.hidden)));
     weights += network.hidden + 1;
   }
   return scores;
