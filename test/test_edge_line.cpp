@@ -70,9 +70,11 @@ TEST(EdgeLine, squaresGoOnBelowAShadow)
   render.addBoard(ROWS, COLS, place());
   addBar(render, 4.6, 5.5);  // over the corners of the line that the lattice lacks
   const Frame frame = omr::makeFrame(render.picture(0.8));
-  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), omr::bottom));
-  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), omr::bottom));
-  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), omr::top));
+  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {omr::bottom}));
+  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), {omr::bottom}));
+  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), {omr::top}));
+  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {omr::top, omr::bottom}));
+  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {}));
 }
 
 TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)

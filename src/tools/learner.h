@@ -17,7 +17,7 @@ struct Descent
   /** @param spread of the random first values. */
   Descent(std::size_t count, float spread, cv::RNG& random);
 
-  /** @param steps so far, with this one. */
+  /** One step against the gradient, which is 0 then. @param size of it. @param steps so far, with this one. */
   void step(float size, int steps);
 };
 
@@ -29,12 +29,13 @@ class Learner
  public:
   Learner(int inputs, int hidden, cv::RNG& random);
 
-  /** Adds to the gradient. @param window its inputs, and a one for the bias. */
+  /** Adds to the gradient. @param window its inputs, and a one for the bias. @param weight of what it adds. */
   void learn(const float* window, WindowLabel label, float weight);
 
+  /** Moves all weights against the gradient, about by `size` each, and begins a new one. */
   void step(double size);
 
-  /** The network for inputs that have not been scaled. */
+  /** The network for inputs as they are. @param means, deviations of each input, by which it was scaled. */
   FeedForward network(const std::vector<float>& means, const std::vector<float>& deviations) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -124,14 +125,15 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
     noteFailure(lattice, 2, map);
     return false;
   }
-  const bool goes_on = std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
-    return sides[side] == SideEvidence::rim && squaresGoOn(looker.frame(), lattice, side);
-  });
-  if (goes_on)
+  std::vector<Side> rims;
+  std::copy_if(SIDES.begin(), SIDES.end(), std::back_inserter(rims),
+               [&](Side side) { return sides[side] == SideEvidence::rim; });
+  if (squaresGoOn(looker.frame(), lattice, rims))
   {
     noteFailure(lattice, 1, map);
+    return false;
   }
-  return !goes_on;
+  return true;
 }
 
 /** The same by the edges of its squares, which say what corners do not under hard shadows; a border where both say so.

@@ -1,7 +1,6 @@
 #include "edge_line.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "corner_ring.h"
 #include "edge_look.h"
@@ -133,15 +132,17 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
   return {std::min(dark.places, light.places), dark.value(), light.value(), inside.value(), beyond.value()};
 }
 
-bool squaresGoOn(const Frame& frame, const Lattice& lattice, Side side)
+bool squaresGoOn(const Frame& frame, const Lattice& lattice, const std::vector<Side>& sides)
 {
   LatticeModel model;
-  if (!fitEdges(lattice, true, model))
+  if (sides.empty() || !fitEdges(lattice, true, model))
   {
     return false;
   }
   const float ratio = medianRatio(frame, model, lattice);
-  return ratio > 0 && lookAtEdgeLine(frame, model, lattice, side, 1, ratio).goesOn();
+  return ratio > 0 && std::any_of(sides.begin(), sides.end(), [&](Side side) {
+           return lookAtEdgeLine(frame, model, lattice, side, 1, ratio).goesOn();
+         });
 }
 
 }  // namespace omr
