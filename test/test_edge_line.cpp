@@ -64,17 +64,41 @@ Lattice firstRows(int rows)
 }
 }  // namespace
 
-TEST(EdgeLine, squaresGoOnBelowAShadow)
+using Sides = std::array<omr::SideEvidence, 4>;
+
+TEST(EdgeLine, aRimIsNoneWhereSquaresGoOnBelowAShadow)
 {
   Render render({400, 340});
   render.addBoard(ROWS, COLS, place());
   addBar(render, 4.6, 5.5);  // over the corners of the line that the lattice lacks
   const Frame frame = omr::makeFrame(render.picture(0.8));
-  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {omr::bottom}));
-  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), {omr::bottom}));
-  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 1), {omr::top}));
-  EXPECT_TRUE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {omr::top, omr::bottom}));
-  EXPECT_FALSE(omr::squaresGoOn(frame, firstRows(ROWS - 3), {}));
+  constexpr auto RIM = omr::SideEvidence::rim;
+  Sides sides = {RIM, RIM, RIM, RIM};
+  omr::settleRims(frame, firstRows(ROWS - 3), sides);
+  EXPECT_EQ((Sides{RIM, RIM, omr::SideEvidence::none, RIM}), sides);
+  sides[omr::bottom] = omr::SideEvidence::border;
+  omr::settleRims(frame, firstRows(ROWS - 3), sides);
+  EXPECT_EQ(omr::SideEvidence::border, sides[omr::bottom]) << "what corners settle is not asked";
+  sides[omr::bottom] = RIM;
+  omr::settleRims(frame, firstRows(ROWS - 1), sides);
+  EXPECT_EQ(RIM, sides[omr::bottom]);
+}
+
+TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
+{
+  constexpr double CUT = ROWS - 0.5;
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  render.addPolygon({corner(-2, CUT), corner(COLS + 2, CUT), corner(COLS + 2, 9), corner(-2, 9)}, cv::Scalar::all(110));
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  Sides sides;
+  sides.fill(omr::SideEvidence::none);
+  omr::settleRims(frame, firstRows(ROWS - 1), sides);
+  EXPECT_EQ(omr::SideEvidence::rim, sides[omr::bottom]);
+  sides.fill(omr::SideEvidence::none);
+  omr::settleRims(frame, firstRows(ROWS - 2), sides);
+  EXPECT_EQ(omr::SideEvidence::none, sides[omr::bottom]) << "half a line of squares follows";
 }
 
 TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)

@@ -37,6 +37,35 @@ TEST(LatticeExtent, aSingleCornerBeyondAWholeLineIsTheBackgrounds)
   EXPECT_EQ(cv::Size(9, 6), lattice.box.size());
 }
 
+TEST(LatticeExtent, aSingleCornerOnPlainGroundEndsNoBoard)
+{
+  const cv::Matx33d truth = omr::test::boardHomography(7, 10, {320, 240}, 36, 4);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  const auto add = [&](Render& render, double x0, double x1, double y0, double y1, const cv::Scalar& color) {
+    render.addPolygon({at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1)}, color);
+  };
+  Render render({640, 480}, cv::Scalar::all(230));
+  render.addBoard(7, 10, truth);
+  // The rim squares are cut, so no outer corner shows where the false one lies, which a dark thing draws beside a line
+  // that is not whole.
+  add(render, -2, 0.3, 0, 4, cv::Scalar::all(230));
+  add(render, -2, 0.3, 5, 7, cv::Scalar::all(230));
+  add(render, -2, 1, 2, 3, cv::Scalar::all(230));
+  add(render, -3, 0, 3, 4, cv::Scalar::all(20));
+  const Frame frame = omr::makeFrame(render.picture());
+  CornerLooker looker(frame, 10000);
+  const LocalFrame seed{at(5, 3), at(6, 3) - at(5, 3), at(5, 4) - at(5, 3)};
+  const CornerLook corner = looker.look(seed, CornerQuery());
+  ASSERT_TRUE(corner.found);
+  Lattice lattice;
+  lattice.start(seed, corner);
+  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  ASSERT_EQ(cv::Size(10, 6), lattice.box.size());
+  const auto sides = settleExtent(lattice, looker);
+  EXPECT_EQ(cv::Size(10, 6), lattice.box.size());
+  EXPECT_EQ(omr::SideEvidence::none, sides[omr::left]);
+}
+
 TEST(LatticeGaps, aClearLatticeGoesOnBehindAWideThing)
 {
   const cv::Matx33d truth = omr::test::boardHomography(6, 10, {320, 240}, 30, 12, 10);

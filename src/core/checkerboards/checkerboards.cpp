@@ -119,18 +119,11 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
   splitAtBorders(lattice, looker.frame());
   dropOutliers(lattice);
   sides = settleExtent(lattice, looker);
+  settleRims(looker.frame(), lattice, sides);
   if (!isBoard(lattice, sides))
   {
     sections.add(lattice);
     noteFailure(lattice, 2, map);
-    return false;
-  }
-  std::vector<Side> rims;
-  std::copy_if(SIDES.begin(), SIDES.end(), std::back_inserter(rims),
-               [&](Side side) { return sides[side] == SideEvidence::rim; });
-  if (squaresGoOn(looker.frame(), lattice, rims))
-  {
-    noteFailure(lattice, 1, map);
     return false;
   }
   return true;

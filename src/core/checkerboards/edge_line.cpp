@@ -1,6 +1,7 @@
 #include "edge_line.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "corner_ring.h"
 #include "edge_look.h"
@@ -132,17 +133,27 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
   return {std::min(dark.places, light.places), dark.value(), light.value(), inside.value(), beyond.value()};
 }
 
-bool squaresGoOn(const Frame& frame, const Lattice& lattice, const std::vector<Side>& sides)
+void settleRims(const Frame& frame, const Lattice& lattice, std::array<SideEvidence, 4>& sides)
 {
   LatticeModel model;
-  if (sides.empty() || !fitEdges(lattice, true, model))
+  const bool asked = std::any_of(sides.begin(), sides.end(), [](SideEvidence side) {
+    return side == SideEvidence::rim || side == SideEvidence::none;
+  });
+  if (!asked || !fitEdges(lattice, true, model))
   {
-    return false;
+    return;
   }
   const float ratio = medianRatio(frame, model, lattice);
-  return ratio > 0 && std::any_of(sides.begin(), sides.end(), [&](Side side) {
-           return lookAtEdgeLine(frame, model, lattice, side, 1, ratio).goesOn();
-         });
+  for (const Side side : SIDES)
+  {
+    const bool is_rim = sides[side] == SideEvidence::rim;
+    if (ratio > 0 && (is_rim || sides[side] == SideEvidence::none))
+    {
+      const EdgeLine border = lookAtEdgeLine(frame, model, lattice, side, 1, ratio);
+      const bool is_last = is_rim ? !border.goesOn() : border.isLast();
+      sides[side] = is_last ? SideEvidence::rim : SideEvidence::none;
+    }
+  }
 }
 
 }  // namespace omr

@@ -1,9 +1,10 @@
 #ifndef OUTDOOR_OMR_CORE_EDGE_LINE_H
 #define OUTDOOR_OMR_CORE_EDGE_LINE_H
 
-#include <vector>
+#include <array>
 
 #include "lattice.h"
+#include "lattice_extent.h"
 #include "lattice_model.h"
 #include "lattice_side.h"
 #include "outdoor_omr/frame.h"
@@ -46,10 +47,12 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
                         float ratio);
 
 /**
- * Whether squares go on beyond one of the sides, which a lattice settled by its corners does not show: a shadow spoils
- * their line. Of 15 such sides of boards below drawn fences 14 go on, of 690 where the board ends none.
+ * Asks the edges of the squares about the sides that corners alone do not settle: one whose corners are hidden in part
+ * is a rim where squares lie inside it and none beyond, and a rim is none where they go on. Of 1354 boards on
+ * photographs that were covered, lit and cut the first finds 19 more, most with narrow rim squares; of 15 sides of
+ * boards below drawn fences where squares go on the second refuses 14, of 690 where the board ends none.
  */
-bool squaresGoOn(const Frame& frame, const Lattice& lattice, const std::vector<Side>& sides);
+void settleRims(const Frame& frame, const Lattice& lattice, std::array<SideEvidence, 4>& sides);
 
 }  // namespace omr
 
