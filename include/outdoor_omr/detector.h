@@ -46,6 +46,7 @@ class Detector
 
   FillPipeline pipeline_;
   MarkerNetwork network_ = defaultMarkerNetwork();
+  Frame frame_;  // of the image at work; of the last one its memory
   RegionMap regions_;
   RegionMap enlarged_regions_;
   std::vector<MarkerScores> window_scores_;

@@ -55,17 +55,16 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   {
     image_look = std::async([&] { targets.lookAtImage(); });
   }
-  std::future<Frame> pyramid = std::async([&] {
-    Frame frame = makeFrame(bgr);
+  std::future<void> pyramid = std::async([&] {
+    makeFrame(bgr, frame_);
     if (settings.detect_targets)
     {
-      targets.lookAtGrey(frame.raw_grey);
+      targets.lookAtGrey(frame_.raw_grey);
     }
-    return frame;
   });
   pipeline_.run(bgr, settings, outputs, regions, &times);
   StopWatch watch(times);
-  const Frame frame = pyramid.get();
+  pyramid.get();
   watch.step("pyramid");
   Markers markers;
   std::future<void> look;
@@ -85,7 +84,7 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   };
   if (settings.detect_checkerboards)
   {
-    markers.checkerboards = findCheckerboards(frame, regions, settings, expect, &markers.sections);
+    markers.checkerboards = findCheckerboards(frame_, regions, settings, expect, &markers.sections);
     targets.confirm(markers.checkerboards);
     watch.step("checkerboards");
   }
@@ -99,6 +98,7 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
     markers.targets = targets.finish(regions, markers.checkerboards);
     watch.step("targets");
   }
+  frame_.bgr.release();
   return markers;
 }
 

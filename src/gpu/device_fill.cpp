@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace omr
 {
@@ -24,6 +27,10 @@ DeviceFill::DeviceFill(const Device& device, Geometry geometry)
       compute_units_(static_cast<int>(device.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()))
 {
   warmUp();
+#ifdef __GLIBC__
+  // What PoCL freed after it had loaded the kernels: a process with one detector takes 185 instead of 190 MB at 1080p.
+  malloc_trim(0);
+#endif
 }
 
 Groups DeviceFill::rows() const
