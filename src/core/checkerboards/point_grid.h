@@ -2,7 +2,9 @@
 #define OUTDOOR_OMR_CORE_POINT_GRID_H
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <vector>
@@ -37,10 +39,6 @@ class PointGrid
   {
     int squared;  // distance [px^2]
     cv::Point offset;
-    bool operator<(const Neighbour& other) const
-    {
-      return squared < other.squared;
-    }
   };
 
   /** The nearest neighbours, nearest first; at most MAX_NEIGHBOURS. */
@@ -53,24 +51,24 @@ class PointGrid
       {
         continue;
       }
-      found.clear();
-      int farthest = MAX_SQUARED;  // that is kept
+      Nearest nearest;
+      nearest.fill(NONE);
       for (int y = cells.y; y < cells.br().y; ++y)
       {
         const int to = first_[y * cols_ + cells.br().x];
         for (int i = first_[y * cols_ + cells.x]; i < to; ++i)
         {
-          const cv::Point offset = sorted_[i] - center;
-          const int squared = offset.dot(offset);
-          if (squared >= MIN_SQUARED && squared < farthest)
-          {
-            insert({squared, offset}, found);
-            farthest = found.size() == MAX_NEIGHBOURS ? found.back().squared : MAX_SQUARED;
-          }
+          insert(i, sorted_[i] - center, nearest);
         }
       }
-      if (found.size() == MAX_NEIGHBOURS)
+      if (nearest.back() < NONE || reach == MAX_REACH)
       {
+        found.clear();
+        for (auto key = nearest.begin(); key != nearest.end() && *key < NONE; ++key)
+        {
+          const auto index = static_cast<std::size_t>(*key & INDEX);
+          found.push_back({static_cast<int>(*key >> INDEX_BITS), sorted_[index] - center});
+        }
         break;
       }
     }
@@ -82,19 +80,24 @@ class PointGrid
   static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
   static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
 
-  /** Where it belongs; the farthest of too many goes. */
-  static void insert(const Neighbour& neighbour, std::vector<Neighbour>& sorted)
+  // The square of a neighbour's distance and its index: of those equally far the first one comes first.
+  using Key = std::int64_t;
+  using Nearest = std::array<Key, MAX_NEIGHBOURS>;
+  static constexpr int INDEX_BITS = 32;
+  static constexpr Key INDEX = (Key{1} << INDEX_BITS) - 1;
+  static constexpr Key NONE = Key{MAX_SQUARED} << INDEX_BITS;
+
+  /** Where it belongs; the farthest goes. Without a branch: none could be foreseen. */
+  static void insert(int index, const cv::Point& offset, Nearest& sorted)
   {
-    if (sorted.size() < MAX_NEIGHBOURS)
+    const int squared = offset.dot(offset);
+    Key key = squared >= MIN_SQUARED ? Key{squared} << INDEX_BITS | index : NONE;
+    for (Key& place : sorted)
     {
-      sorted.emplace_back();
+      const Key nearer = std::min(place, key);
+      key = std::max(place, key);
+      place = nearer;
     }
-    auto place = sorted.end() - 1;
-    for (; place != sorted.begin() && neighbour < *(place - 1); --place)
-    {
-      *place = *(place - 1);
-    }
-    *place = neighbour;
   }
 
   cv::Rect cellsAround(const cv::Point& point, int reach) const

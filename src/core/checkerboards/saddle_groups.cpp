@@ -156,12 +156,10 @@ bool frameFromNeighbours(const cv::Mat& grey, const cv::Point& center,
   {
     for (std::size_t b = a + 1; b < neighbours.size() && distances[b] <= MAX_STEP_RATIO * distances[a]; ++b)
     {
-      const cv::Point2f first = neighbours[a].offset;
-      const cv::Point2f second = neighbours[b].offset;
-      const float area = cross(first, second);
-      const bool is_right_handed = area >= 0;
-      if (search.add(is_right_handed ? first : second, is_right_handed ? second : first,
-                     std::abs(area) >= MIN_SINE * distances[a] * distances[b], seed))
+      const std::array<cv::Point2f, 2> steps = {neighbours[a].offset, neighbours[b].offset};
+      const float area = cross(steps[0], steps[1]);
+      const std::size_t first = area < 0 ? 1 : 0;  // an index: a branch on the side could not be foreseen
+      if (search.add(steps[first], steps[1 - first], std::abs(area) >= MIN_SINE * distances[a] * distances[b], seed))
       {
         return true;
       }
