@@ -30,12 +30,8 @@ float median(std::array<float, SIZE> values)
 /** An edge that runs from a corner. */
 struct Arm
 {
-  explicit Arm(int index) : along_u(index % 2 == 0), direction(index < 2 ? 1.F : -1.F)
+  explicit constexpr Arm(int index) : along_u(index % 2 == 0), direction(index < 2 ? 1.F : -1.F)
   {
-  }
-  cv::Point2f at(float radius) const
-  {
-    return along_u ? cv::Point2f(direction * radius, 0) : cv::Point2f(0, direction * radius);
   }
   bool along_u;
   float direction;
@@ -43,13 +39,88 @@ struct Arm
 
 using Edges = std::array<Edge, PLACES>;
 
+// Of the profiles across all edges around a corner: the first of each place, then the second of each.
+constexpr int SAMPLES = PROFILE * PLACES;
+
+/** Where the profiles are sampled, from the corner [squares]. */
+struct Offsets
+{
+  std::array<float, SAMPLES> u{}, v{};
+};
+
+constexpr Offsets offsetsAround()
+{
+  Offsets offsets;
+  for (int i = 0; i < SAMPLES; ++i)
+  {
+    const int place = i % PLACES;
+    const Arm arm(place % ARMS);
+    const float along = arm.direction * RADII[place / ARMS];
+    const int step = i / PLACES - REACH - HALF;
+    const float across = static_cast<float>(step) * STEP;
+    offsets.u[i] = arm.along_u ? along : across;
+    offsets.v[i] = arm.along_u ? across : along;
+  }
+  return offsets;
+}
+constexpr Offsets AROUND = offsetsAround();
+
+/** strongestEdge() of the places, each value side by side. */
+struct StrongestEdges
+{
+  std::array<float, PLACES> offset, ratio, contrast;
+};
+
+/** The strongest edges at all places around a corner, taken side by side. */
+OMR_VECTORIZED void findStrongest(const PyramidView& view, const LocalFrame& local_frame, int sign,
+                                  StrongestEdges& strongest)
+{
+  const LocalFrame frame = local_frame;
+  const float scale = view.scale;
+  SamplePlaces<SAMPLES> places;
+  for (int i = 0; i < SAMPLES; ++i)
+  {
+    // LocalFrame::at()
+    places.x[i] = (frame.node.x + AROUND.u[i] * frame.u.x + AROUND.v[i] * frame.v.x) * scale;
+    places.y[i] = (frame.node.y + AROUND.u[i] * frame.u.y + AROUND.v[i] * frame.v.y) * scale;
+  }
+  std::array<float, SAMPLES> grey;
+  std::array<float, SAMPLES> logarithm;
+  sampleGreys(*view.grey, places, grey);
+  greyLogarithms(greyLogarithmTable(), grey, logarithm);
+  std::array<float, PLACES> signs;
+  for (int i = 0; i < PLACES; ++i)
+  {
+    signs[i] = Arm(i % ARMS).direction * static_cast<float>(sign);
+  }
+  StrongestEdges best{};
+  best.ratio.fill(-1e9F);
+  for (int step = HALF; step < PROFILE - HALF; ++step)
+  {
+    const float offset = static_cast<float>(step - HALF - REACH) * STEP;
+    const int ahead = (step + HALF) * PLACES;
+    const int behind = (step - HALF) * PLACES;
+    for (int i = 0; i < PLACES; ++i)
+    {
+      const float ratio = signs[i] * (logarithm[ahead + i] - logarithm[behind + i]);
+      const float contrast = signs[i] * (grey[ahead + i] - grey[behind + i]);
+      const bool is_stronger = ratio > best.ratio[i];
+      best.offset[i] = is_stronger ? offset : best.offset[i];
+      best.contrast[i] = is_stronger ? contrast : best.contrast[i];
+      best.ratio[i] = is_stronger ? ratio : best.ratio[i];
+    }
+  }
+  strongest = best;
+}
+
 Edges edgesAround(const PyramidView& view, const LocalFrame& frame, int sign)
 {
+  StrongestEdges strongest;
+  findStrongest(view, frame, sign, strongest);
   Edges edges;
   for (int i = 0; i < PLACES; ++i)
   {
-    const Arm arm(i % ARMS);
-    edges[i] = strongestEdge(view, frame, arm.at(RADII[i / ARMS]), arm.along_u, arm.direction > 0 ? sign : -sign);
+    edges[i] = {strongest.offset[i], strongest.ratio[i], strongest.contrast[i]};
   }
   return edges;
 }
@@ -157,12 +228,16 @@ CornerEdges lookAtEdges(const PyramidView& view, const LocalFrame& predicted, in
   }
   CornerEdges result;
   result.ratio = median(ratios);
+  if (result.ratio < MIN_RATIO)
+  {
+    return result;
+  }
   const cv::Point2f corner(median(offsets_u), median(offsets_v));
-  result.position = predicted.at(corner.x, corner.y);
-  result.contrast = medianContrast(edges);
   const Agreement agreement = agreementOf(edges, corner, result.ratio);
+  result.position = predicted.at(corner.x, corner.y);
   result.agreeing = static_cast<float>(agreement.places) / PLACES;
-  result.alike = result.ratio >= MIN_RATIO && agreement.places >= MIN_AGREEING && agreement.arms == ARMS;
+  result.alike = agreement.places >= MIN_AGREEING && agreement.arms == ARMS;
+  result.contrast = result.alike ? medianContrast(edges) : 0;
   return result;
 }
 

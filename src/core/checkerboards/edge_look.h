@@ -35,8 +35,8 @@ Edge strongestEdge(const PyramidView& view, const LocalFrame& frame, const cv::P
 struct CornerEdges
 {
   bool alike = false;    ///< most places show one ratio of light to dark, on straight lines through the corner
+  float ratio = 0;       ///< median, logarithm; all that there is where the edges are not alike
   cv::Point2f position;  ///< [px]
-  float ratio = 0;       ///< median, logarithm
   float contrast = 0;    ///< median [grey levels]
   float agreeing = 0;    ///< share of the places [0, 1]
 };
