@@ -6,10 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "color_key.h"
 #include "edgels.h"
-#include "ring_colors.h"
-#include "ring_deblur.h"
+#include "ring_letters.h"
 #include "ring_search.h"
 
 namespace omr
@@ -30,18 +28,6 @@ constexpr double SMALL_DIAMETER = 30;   // [px]
 // letters.
 constexpr double CLEAR = .85;
 constexpr double VERY_CLEAR = .95;
-
-// A boundary between two rings that read alike, as glare makes them.
-constexpr double EVIDENT_CONTRAST = .2;
-constexpr double EVIDENT_COHERENCE = .9;
-constexpr double EVIDENT_SHARE = .5;
-
-// What uniform rings leave unexplained of a target with narrow ones, relative to its contrast: more shows that the blur
-// hides rings. Of 25 targets of the field with a ring too many or too few 9 have more, of 132 others 1. Sharp rings of
-// 2 to 3 px, which few samples show, have up to .065.
-constexpr double NARROW = 5;  // [px]
-constexpr double MOST_UNEXPLAINED = .057;
-constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
 /**
  * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
@@ -71,76 +57,16 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }
 
-/** Whether the ring's outer boundary shows: the colour inside it is the ring's, whatever hides its inner boundary. */
-bool isSeen(const std::vector<Boundary>& boundaries, std::size_t ring)
-{
-  return boundaries[ring].shown;
-}
-
-constexpr double SHARP_WIDTH = 7;  // of rings that show their colour in each direction without the blur's help [px]
-
-/** Whether there is a boundary, whatever the colours. */
-bool isEvident(const Boundary& boundary)
-{
-  return boundary.contrast > EVIDENT_CONTRAST && boundary.coherence > EVIDENT_COHERENCE &&
-         share(boundary.agreeing & boundary.supported) > EVIDENT_SHARE;
-}
-
-/** The key's letters; a boundary between equal ones is no ring's: the family loses it. */
-std::string readColors(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
-{
-  while (true)
-  {
-    std::vector<ColorMeasurement> ways = {[&] { return measureRingColors(profile, boundaries, radii); }};
-    const bool is_sharp = narrowestRing(radii) > SHARP_WIDTH;
-    if (is_sharp)
-    {
-      ways.emplace_back([&] { return measureColorsIn(Light::brightest, profile, radii); });
-      ways.emplace_back([&] { return measureColorsIn(Light::darkest, profile, radii); });
-    }
-    std::vector<bool> seen(radii.size());
-    for (std::size_t k = 0; k < radii.size(); ++k)
-    {
-      seen[k] = isSeen(boundaries, k);
-    }
-    std::string key = readColorKey(ways, seen, is_sharp);
-    std::size_t k = 0;
-    for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
-    {
-      if (key[k] == key[k + 1])
-      {
-        key[k] = key[k + 1] = '?';
-      }
-    }
-    if (k + 1 >= key.size())
-    {
-      return key;
-    }
-    radii.erase(radii.begin() + static_cast<std::ptrdiff_t>(k));
-    boundaries.erase(boundaries.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-}
-
-void scaleBy(double factor, std::vector<double>& values)
-{
-  std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
-}
-
 /** @return false if the colours are no target's, or not those of these rings. */
 bool toTarget(RingCandidate candidate, int min_rings, Target& target)
 {
-  std::vector<double>& radii = candidate.rings.radii;
-  scaleBy(candidate.profile_scale, radii);
-  target.colors = readColors(*candidate.profile, candidate.boundaries, radii);
-  const double width = narrowestRing(radii) / candidate.profile_scale;
-  if (width < NARROW &&
-      unexplained(*candidate.profile, radii) > std::max(MOST_UNEXPLAINED, MOST_UNEXPLAINED_WIDTH / width))
+  target.colors = readLetters(candidate);
+  if (hidesRings(candidate))
   {
     return false;
   }
-  scaleBy(1. / candidate.profile_scale, radii);
   target.center = cv::Point2f(candidate.rings.family.center);
-  for (const double radius : radii)
+  for (const double radius : candidate.rings.radii)
   {
     target.rings.push_back(candidate.rings.family.ellipse(radius));
   }

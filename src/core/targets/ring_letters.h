@@ -1,0 +1,18 @@
+#ifndef OUTDOOR_OMR_CORE_RING_LETTERS_H
+#define OUTDOOR_OMR_CORE_RING_LETTERS_H
+
+#include <string>
+
+#include "ring_candidate.h"
+
+namespace omr
+{
+/** The letters of the rings; a boundary between equal ones is no ring's: the candidate loses it. */
+std::string readLetters(RingCandidate& candidate);
+
+/** Whether so much of the profile stays unexplained by uniform rings that the blur must hide some. */
+bool hidesRings(const RingCandidate& candidate);
+
+}  // namespace omr
+
+#endif
