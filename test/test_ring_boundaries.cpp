@@ -186,6 +186,30 @@ TEST(RingProfile, interpolatesUpToTheLastPixel)
   EXPECT_GT(near_the_end, 0);
 }
 
+TEST(RingBoundaries, edgesOfEitherSignSupportAChangeOfHue)
+{
+  // Red falls as blue rises: which of them is the stronger edge may differ from place to place.
+  TargetScene scene;
+  scene.colors = "RBRBR";
+  const cv::Mat image = renderTarget(scene);
+  omr::RingFamily family;
+  family.center = projectedCenter(scene);
+  constexpr double REACH = 120;
+  omr::RingProfile profile;
+  omr::sampleProfile(image, family, REACH, profile);
+  omr::EdgelMap map(image);
+  std::vector<omr::RadialEdgel> edgels;
+  omr::collectRadialEdgels(map, family, REACH, .9, edgels);
+  for (omr::RadialEdgel& edgel : edgels)
+  {
+    edgel.brighter_outside = edgel.brighter_outside != (edgel.position.x > family.center.x);
+  }
+  for (const Boundary& boundary : omr::findBoundaries(profile, omr::AngularSupport(edgels, REACH), {}))
+  {
+    EXPECT_GT(omr::share(boundary.supported), .9) << boundary.radius;
+  }
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

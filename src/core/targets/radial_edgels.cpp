@@ -223,7 +223,7 @@ AngularSupport::AngularSupport(const std::vector<RadialEdgel>& edgels, double ma
   }
 }
 
-AngleBins AngularSupport::at(double radius, double tolerance) const
+std::pair<AngleBins, AngleBins> AngularSupport::apart(double radius, double tolerance) const
 {
   const int cells = static_cast<int>(brighter_.size());
   AngleBins brighter = 0;
@@ -234,7 +234,19 @@ AngleBins AngularSupport::at(double radius, double tolerance) const
     brighter |= brighter_[cell];
     darker |= darker_[cell];
   }
+  return {brighter, darker};
+}
+
+AngleBins AngularSupport::at(double radius, double tolerance) const
+{
+  const auto [brighter, darker] = apart(radius, tolerance);
   return count(brighter) > count(darker) ? brighter : darker;
+}
+
+AngleBins AngularSupport::either(double radius, double tolerance) const
+{
+  const auto [brighter, darker] = apart(radius, tolerance);
+  return brighter | darker;
 }
 
 }  // namespace omr

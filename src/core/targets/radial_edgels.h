@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "edgels.h"
@@ -54,7 +55,13 @@ class AngularSupport
    */
   AngleBins at(double radius, double tolerance) const;
 
+  /** The same of either sign. */
+  AngleBins either(double radius, double tolerance) const;
+
  private:
+  /** By sign. */
+  std::pair<AngleBins, AngleBins> apart(double radius, double tolerance) const;
+
   std::vector<AngleBins> brighter_, darker_;  // per cell, apart by sign
 };
 

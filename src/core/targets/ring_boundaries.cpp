@@ -158,6 +158,9 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
       boundary.agreeing |= AngleBins{1} << angle;
     }
   }
+  // Where one channel rises as another falls, noise and light decide which is the stronger. So the sign of an edgel
+  // tells nothing where the colours agree: of the field's targets 157 and 157 are found instead of 155 and 155.
+  boundary.supported |= boundary.agreeing & support.either(radii[k], edgeTolerance(radii[k]));
   boundary.agreement = bits(boundary.agreeing) / static_cast<double>(bits(boundary.seen));
   return boundary;
 }
