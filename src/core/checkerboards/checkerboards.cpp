@@ -24,6 +24,7 @@
 #include "regularity.h"
 #include "saddle_groups.h"
 #include "search_map.h"
+#include "size_certainty.h"
 
 namespace omr
 {
@@ -210,10 +211,7 @@ Checkerboard finish(const Candidate& candidate, const Frame& frame, const Region
                            static_cast<float>(frame.raw_grey.rows - 1));
   const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
                                   [&](const auto& corner) { return picture.contains(corner); });
-  const auto& sides = candidate.sides;
-  // A side without a margin beside others with one may be the edge of a thing that lies on the board.
-  board.size_certain = inside && (std::count(sides.begin(), sides.end(), SideEvidence::border) == 4 ||
-                                  std::count(sides.begin(), sides.end(), SideEvidence::bare) == 4);
+  board.size_certain = inside && isSizeCertain(frame, lattice, candidate.sides);
   return board;
 }
 

@@ -1,0 +1,23 @@
+#ifndef OUTDOOR_OMR_CORE_SIZE_CERTAINTY_H
+#define OUTDOOR_OMR_CORE_SIZE_CERTAINTY_H
+
+#include <array>
+
+#include "lattice.h"
+#include "lattice_extent.h"
+#include "outdoor_omr/frame.h"
+
+namespace omr
+{
+/**
+ * Whether all four ends of a board are seen, so that nothing hidden may belong to it: borders, or bare ends on all
+ * sides, or a narrow margin, where dark squares of the rim end along one line and light ones do not, as far out as on
+ * the opposite side.
+ *
+ * @param lattice its refined corners.
+ */
+bool isSizeCertain(const Frame& frame, const Lattice& lattice, const std::array<SideEvidence, 4>& sides);
+
+}  // namespace omr
+
+#endif
