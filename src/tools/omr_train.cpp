@@ -27,7 +27,7 @@ struct Options : omr::TrainingOptions
   double lost = .05;
   double precision = .9995;
   double enlarged = .5;
-  double shown = .03;
+  double shown = .027;
 };
 
 /** The scenes that are held out are those of no seed of the training. */
