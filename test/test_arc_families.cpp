@@ -8,6 +8,7 @@
 #include "render_target.h"
 #include "targets/arc_circles.h"
 #include "targets/arc_search.h"
+#include "targets/edge_chains.h"
 #include "targets/pixel_set.h"
 
 namespace
@@ -15,7 +16,7 @@ namespace
 std::vector<omr::EdgeArc> arcsOf(const cv::Mat& image)
 {
   omr::EdgelMap map(image);
-  return omr::traceArcs(map, image.size());
+  return omr::traceArcs(omr::edgelsOf(map, image.size()), image.size());
 }
 
 double turningOf(const std::vector<omr::EdgeArc>& arcs)

@@ -175,9 +175,8 @@ void cutChain(const Links& links, int& chain, std::vector<EdgeArc>& arcs)
 }
 }  // namespace
 
-std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size)
+std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size& size)
 {
-  const std::vector<Edgel> edgels = edgelsOf(map, size);
   const Chains chains = followEdges(edgels, size);
   const std::size_t count = chains.ends.size();
   std::array<std::vector<EdgeArc>, PARTS> parts;
@@ -206,6 +205,7 @@ std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size)
       chain = arc.chain;
       arcs.push_back(arc);
     }
+    part = std::vector<EdgeArc>();  // gives its memory back
   }
   return arcs;
 }

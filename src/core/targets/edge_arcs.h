@@ -22,9 +22,9 @@ struct EdgeArc
 /**
  * Follows edgels along edges and cuts them into bent pieces; straight ones are left out.
  *
- * @param size of the map's image.
+ * @param size of the edgels' image.
  */
-std::vector<EdgeArc> traceArcs(EdgelMap& map, const cv::Size& size);
+std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size& size);
 
 }  // namespace omr
 
