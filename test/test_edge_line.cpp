@@ -101,6 +101,35 @@ TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
   EXPECT_EQ(omr::SideEvidence::none, sides[omr::bottom]) << "half a line of squares follows";
 }
 
+TEST(EdgeLine, anUnevenLatticeWithoutABorderEndsOnlyWhereSquaresShow)
+{
+  constexpr double HIDDEN = ROWS - 1 + 0.1;
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  render.addPolygon({corner(-2, HIDDEN), corner(COLS + 2, HIDDEN), corner(COLS + 2, 9), corner(-2, 9)},
+                    cv::Scalar::all(110));
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  constexpr auto RIM = omr::SideEvidence::rim;
+  Sides sides = {RIM, RIM, RIM, RIM};
+  Lattice lattice = firstRows(ROWS - 1);
+  omr::settleRims(frame, lattice, sides);
+  EXPECT_EQ(RIM, sides[omr::bottom]);
+  for (int i = 0; i < ROWS - 1; ++i)
+  {
+    for (int j = 0; j < COLS - 1; ++j)
+    {
+      lattice.at(Lattice::SEED + i, Lattice::SEED + j).position.y += (i * j) % 2 == 0 ? 3 : -3;
+    }
+  }
+  Sides uneven = {RIM, RIM, RIM, RIM};
+  omr::settleRims(frame, lattice, uneven);
+  EXPECT_EQ(omr::SideEvidence::none, uneven[omr::bottom]);
+  uneven = {omr::SideEvidence::border, RIM, RIM, RIM};
+  omr::settleRims(frame, lattice, uneven);
+  EXPECT_EQ(RIM, uneven[omr::bottom]);
+}
+
 TEST(EdgeLine, theLastRowOfSquaresIsTheLastWhereAShadowHidesTheBorder)
 {
   Render render({400, 340});
