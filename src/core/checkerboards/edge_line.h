@@ -47,11 +47,10 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
                         float ratio);
 
 /**
- * Asks the edges of the squares about the sides that corners alone do not settle: one whose corners are hidden in part
- * is a rim where squares lie inside it and none beyond, and a rim is none where they go on, or of an uneven lattice
- * without a border, where none lie inside. Of 1354 boards on
- * photographs that were covered, lit and cut the first finds 19 more, most with narrow rim squares; of 15 sides of
- * boards below drawn fences where squares go on the second refuses 14, of 690 where the board ends none.
+ * Asks the edges of the squares about the sides that corners alone do not settle. One whose corners are hidden in part
+ * is a rim where squares lie inside it and none beyond: of 1354 boards on photographs that were covered, lit and cut 19
+ * more are found so, most with narrow rim squares. A rim is none where squares go on (below drawn fences 14 of 15 such
+ * sides are refused, of 690 where the board ends none) or, of an uneven lattice without a border, where none lie inside.
  */
 void settleRims(const Frame& frame, const Lattice& lattice, std::array<SideEvidence, 4>& sides);
 
