@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "render.h"
 
@@ -61,7 +62,12 @@ class SizeCertainty : public testing::Test
         lattice.put(Lattice::SEED + i - 1, Lattice::SEED + j - 1, corner);
       }
     }
-    return omr::isSizeCertain(omr::makeFrame(render_.picture(0.8)), lattice, sides_);
+    std::vector<bool> seen(lattice.box.area(), true);
+    for (int i = 0; i < lattice.box.height; ++i)
+    {
+      seen[i * lattice.box.width + lattice.box.width - 1] = i < last_column_seen_;
+    }
+    return omr::isSizeCertain(omr::makeFrame(render_.picture(0.8)), lattice, seen, sides_);
   }
 
   cv::Point2f at(double x, double y) const
@@ -72,6 +78,7 @@ class SizeCertainty : public testing::Test
   cv::Matx33d place_ = omr::test::boardHomography(ROWS, COLS, {240, 190}, 34, 5);
   Render render_{{480, 380}, GREY};
   std::array<omr::SideEvidence, 4> sides_;
+  int last_column_seen_ = ROWS;  // corners of it
 };
 }  // namespace
 
@@ -79,6 +86,15 @@ TEST_F(SizeCertainty, aNarrowMarginIsTheEnd)
 {
   EXPECT_TRUE(isCertain());
   sides_[omr::left] = omr::SideEvidence::doubtful_border;
+  EXPECT_FALSE(isCertain());
+}
+
+TEST_F(SizeCertainty, aLineOfWhichNoCornerIsSeenIsNoEnd)
+{
+  sides_.fill(omr::SideEvidence::border);
+  last_column_seen_ = 1;
+  EXPECT_TRUE(isCertain());
+  last_column_seen_ = 0;
   EXPECT_FALSE(isCertain());
 }
 

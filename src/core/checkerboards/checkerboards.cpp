@@ -211,7 +211,7 @@ Checkerboard finish(const Candidate& candidate, const Frame& frame, const Region
                            static_cast<float>(frame.raw_grey.rows - 1));
   const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
                                   [&](const auto& corner) { return picture.contains(corner); });
-  board.size_certain = inside && isSizeCertain(frame, lattice, candidate.sides);
+  board.size_certain = inside && isSizeCertain(frame, lattice, seen, candidate.sides);
   return board;
 }
 

@@ -2,6 +2,7 @@
 #define OUTDOOR_OMR_CORE_SIZE_CERTAINTY_H
 
 #include <array>
+#include <vector>
 
 #include "lattice.h"
 #include "lattice_extent.h"
@@ -15,8 +16,10 @@ namespace omr
  * the opposite side.
  *
  * @param lattice its refined corners.
+ * @param seen    what refineCorners() gave: without a corner that is seen on the outermost line no end is.
  */
-bool isSizeCertain(const Frame& frame, const Lattice& lattice, const std::array<SideEvidence, 4>& sides);
+bool isSizeCertain(const Frame& frame, const Lattice& lattice, const std::vector<bool>& seen,
+                   const std::array<SideEvidence, 4>& sides);
 
 }  // namespace omr
 
