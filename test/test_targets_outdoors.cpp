@@ -36,6 +36,17 @@ TEST(Targets, partlyHidden)
   expectFound(scene, "RWPGB", .3);
 }
 
+TEST(Targets, largeAndOutOfFocus)
+{
+  TargetScene scene;
+  scene.size = {960, 720};
+  scene.homography = cv::Matx33d(1, 0, 480, 0, .9, 360, 0, 0, 1);
+  scene.radii = {40, 80, 120, 160, 200};
+  scene.sheet_half_side = 260;
+  scene.blur = 10;
+  expectFound(scene, "RWPGB", .5);
+}
+
 TEST(Targets, aNoEntrySignIsNone)
 {
   // Its bar has a middle from which the colour steps outwards, in most directions, but hardly an edge along a circle.

@@ -1,0 +1,93 @@
+#include "ring_reading.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ring_letters.h"
+
+namespace omr
+{
+namespace
+{
+// Distance of the edgels to their boundaries, most, of a target of which half is unknown; and of one without letters,
+// unless it is very clear: a helicopter's landing place comes near to one.
+constexpr double HALF_READ_RMS = .13;  // [px]
+constexpr double UNREAD_RMS = .085;    // [px]
+constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
+// Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
+// 42 px wide. Small ones must be very clear in any case: at 15 to 17 px these eyes have .89 to .94, targets below 30 px
+// .956 and more. An eye of 19 px has .97, but no colour in its middle: the disk of small ones must be read.
+constexpr double MEDIUM_DIAMETER = 50;  // [px]
+constexpr double SMALL_DIAMETER = 30;   // [px]
+// Clearness: evidence x visible share. With unknown rings the least: lenses, eyes and signs have rings too, and no
+// letters.
+constexpr double CLEAR = .85;
+constexpr double VERY_CLEAR = .95;
+
+/**
+ * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
+ * half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be read: most spots of
+ * which less is have another number of rings.
+ */
+bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
+{
+  const auto count = static_cast<int>(target.colors.size());
+  const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
+  const int counted = std::min(count, candidate.ring_count);
+  const double clearness = candidate.evidence * candidate.visible;
+  const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
+                      RELATIVE_RMS * candidate.rings.radii.back();
+  if (counted < min_rings || (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
+  {
+    return false;
+  }
+  const cv::Size2f size = target.rings.back().size;
+  const float diameter = std::min(size.width, size.height);
+  if (counted == 3 && diameter < MEDIUM_DIAMETER)
+  {
+    const bool is_small = diameter < SMALL_DIAMETER;
+    const bool is_all_needed = candidate.is_spot || (is_small && target.colors[0] == '?');
+    return unknown <= (is_all_needed ? 0 : 1) && (clearness > VERY_CLEAR || (unknown == 0 && !is_small));
+  }
+  return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
+}
+
+/** @return false if the colours are no target's, or not those of these rings. */
+bool toTarget(RingCandidate candidate, int min_rings, Target& target)
+{
+  target.colors = readLetters(candidate);
+  if (hidesRings(candidate))
+  {
+    return false;
+  }
+  target.center = cv::Point2f(candidate.rings.family.center);
+  for (const double radius : candidate.rings.radii)
+  {
+    target.rings.push_back(candidate.rings.family.ellipse(radius));
+  }
+  return isReadable(target, candidate, min_rings);
+}
+}  // namespace
+
+std::vector<Target> readTargets(std::vector<RingCandidate> candidates, int min_rings)
+{
+  std::vector<Target> read(candidates.size());
+  std::vector<char> is_target(candidates.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i)
+    {
+      is_target[i] = toTarget(std::move(candidates[i]), min_rings, read[i]) ? 1 : 0;
+    }
+  });
+  std::vector<Target> targets;
+  for (std::size_t i = 0; i < read.size(); ++i)
+  {
+    if (is_target[i] != 0)
+    {
+      targets.push_back(std::move(read[i]));
+    }
+  }
+  return targets;
+}
+
+}  // namespace omr

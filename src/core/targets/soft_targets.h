@@ -1,0 +1,26 @@
+#ifndef OUTDOOR_OMR_CORE_SOFT_TARGETS_H
+#define OUTDOOR_OMR_CORE_SOFT_TARGETS_H
+
+#include <atomic>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "outdoor_omr/checkerboard.h"
+#include "outdoor_omr/target.h"
+
+namespace omr
+{
+/**
+ * Large targets that are so blurred or faint that only a reduced image shows their edges.
+ *
+ * @param bgr       H x W, CV_8UC3.
+ * @param boards    what lies on them is no target.
+ * @param min_rings of a target.
+ * @param is_vain   if given and set, there is nothing to be found.
+ */
+std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings,
+                                    const std::atomic<bool>* is_vain = nullptr);
+
+}  // namespace omr
+
+#endif
