@@ -47,6 +47,22 @@ TEST(Targets, largeAndOutOfFocus)
   expectFound(scene, "RWPGB", .5);
 }
 
+TEST(Targets, aLargeSoftThingWithoutLettersIsNone)
+{
+  TargetScene scene;
+  scene.size = {960, 720};
+  scene.homography = cv::Matx33d(1, 0, 480, 0, 1, 360, 0, 0, 1);
+  scene.radii = {40, 80, 120, 160, 200};
+  scene.colors = "RWPGB";
+  scene.sheet_half_side = 260;
+  scene.blur = 10;
+  cv::Mat image = renderTarget(scene);
+  cv::Mat grey;
+  cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(.4 * grey + 60, image, cv::COLOR_GRAY2BGR);
+  EXPECT_TRUE(findTargetsIn(image).empty());
+}
+
 TEST(Targets, aNoEntrySignIsNone)
 {
   // Its bar has a middle from which the colour steps outwards, in most directions, but hardly an edge along a circle.

@@ -4,12 +4,11 @@
 #include <string>
 #include <utility>
 
-#include "arc_search.h"
 #include "edgels.h"
 #include "ring_candidate.h"
+#include "ring_lookahead.h"
 #include "ring_places.h"
-#include "ring_reading.h"
-#include "ring_search.h"
+#include "target_reading.h"
 
 namespace omr
 {
@@ -19,7 +18,6 @@ namespace
 // reduction 11 more.
 constexpr int REDUCTION = 4;
 constexpr double SHIFT = (REDUCTION - 1) / 2.;  // of the centre of a block of pixels
-constexpr double LOOKS_SHARE = .1;              // of those that a search in an image may take
 
 cv::Point2d toImage(const cv::Point2d& reduced)
 {
@@ -47,23 +45,21 @@ std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checke
   }
   cv::Mat reduced;  // the middle of each block of pixels: a mean of all would take longer than the search
   cv::resize(bgr(cv::Rect(cv::Point(), size * REDUCTION)), reduced, size, 0, 0, cv::INTER_LINEAR);
-  EdgelMap map(reduced);
-  map.setMaxLooks(sharedLooks(size, LOOKS_SHARE));
+  RoundSeeds seeds;
+  growFamilies(EdgelMap(reduced), reduced, min_rings, seeds);
   std::vector<RingCandidate> candidates;
-  for (const ArcFamily& family : searchArcFamilies(reduced))
+  for (GrownSeed& family : seeds.families)
   {
-    RingCandidate candidate;
-    if (!isOnBoard(toImage(family.family.center), boards) &&
-        growCandidate(map, reduced, family.family, family.radii, candidate) && isTarget(candidate, min_rings))
+    if (family.is_target)
     {
-      candidates.push_back(std::move(candidate));
+      candidates.push_back(std::move(family.candidate));
     }
   }
   std::vector<Target> targets;
   for (Target& target : readTargets(bestOfEachPlace(std::move(candidates)), min_rings))
   {
     enlarge(target);
-    // Wheels are round and soft, too, but cannot be read: one of 647 photographs without a target.
+    // Wheels have soft rings, too, but no letters: the picture of one among 647 that are not of the evaluation.
     const bool is_read = target.colors.find('?') == std::string::npos;
     if (is_read && !isOnBoard(target.center, boards))
     {

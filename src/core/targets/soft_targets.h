@@ -17,9 +17,10 @@ namespace omr
  * @param boards    what lies on them is no target.
  * @param min_rings of a target.
  * @param is_vain   if given and set, there is nothing to be found.
+ * @return          those of which every letter is read.
  */
 std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings,
-                                    const std::atomic<bool>* is_vain = nullptr);
+                                    const std::atomic<bool>* is_vain);
 
 }  // namespace omr
 

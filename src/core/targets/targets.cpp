@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "edgels.h"
-#include "ring_reading.h"
 #include "ring_search.h"
 #include "soft_targets.h"
+#include "target_reading.h"
 
 namespace omr
 {

@@ -1,4 +1,4 @@
-#include "ring_reading.h"
+#include "target_reading.h"
 
 #include <algorithm>
 #include <utility>
