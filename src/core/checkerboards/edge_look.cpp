@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grey_samples.h"
+#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -18,14 +19,6 @@ constexpr float STEP = 0.04F;  // squares across the edge
 constexpr int REACH = 5;       // steps to either side where an edge is looked for
 constexpr int HALF = 3;        // steps from an edge to where its sides are judged
 constexpr int PROFILE = 2 * (REACH + HALF) + 1;
-
-template <std::size_t SIZE>
-float median(std::array<float, SIZE> values)
-{
-  const auto middle = values.begin() + SIZE / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /** An edge that runs from a corner. */
 struct Arm

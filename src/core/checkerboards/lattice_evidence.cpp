@@ -2,24 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "median.h"
 
 namespace omr
 {
-namespace
-{
-float median(std::vector<float>& values)
-{
-  if (values.empty())
-  {
-    return 0;
-  }
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-}  // namespace
-
 float Evidence::doubt() const
 {
   return (1 - correlation) / 0.05F + unevenness / 0.15F + (1 - fill) / 0.4F;
@@ -63,8 +52,8 @@ Evidence latticeEvidence(const Lattice& lattice)
     }
   }
   evidence.fill = static_cast<float>(lattice.count()) / static_cast<float>(std::max(1, lattice.box.area()));
-  evidence.correlation = median(correlations);
-  evidence.unevenness = median(unevenness);
+  evidence.correlation = correlations.empty() ? 0 : median(std::move(correlations));
+  evidence.unevenness = unevenness.empty() ? 0 : median(std::move(unevenness));
   return evidence;
 }
 

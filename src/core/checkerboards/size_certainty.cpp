@@ -9,18 +9,12 @@
 #include "edge_line.h"
 #include "edge_look.h"
 #include "lattice_model.h"
+#include "median.h"
 
 namespace omr
 {
 namespace
 {
-float median(std::vector<float> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /** Ratio of light to dark between the squares of a rim, logarithm; 0 if it does not show. */
 float rimRatio(const Frame& frame, const LatticeModel& model, const Lattice& lattice, Side side)
 {

@@ -94,12 +94,6 @@ class Search
   explicit Search(const std::vector<EdgeArc>& arcs)
       : arcs_(arcs), middles_(arcs), is_along_(arcs.size()), used_(arcs.size(), 0)
   {
-    std::size_t runs = 0;
-    for (std::size_t i = 0; i < arcs.size(); ++i)
-    {
-      runs += i == 0 || arcs[i].chain != arcs[i - 1].chain ? 1 : 0;
-    }
-    runs_.reserve(runs);
     for (std::size_t i = 0; i < arcs.size(); ++i)
     {
       if (!runs_.empty() && arcs[i].chain == arcs[runs_.back().last].chain)
