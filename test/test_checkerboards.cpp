@@ -9,7 +9,6 @@
 #include "render.h"
 
 using omr::Checkerboard;
-using omr::Frame;
 using omr::RegionMap;
 using omr::Settings;
 using omr::test::Render;

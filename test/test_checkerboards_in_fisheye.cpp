@@ -7,6 +7,7 @@
 #include "checkerboards/checkerboards.h"
 #include "checkerboards/corners.h"
 #include "checkerboards/lattice_extent.h"
+#include "lattices.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"
@@ -85,24 +86,9 @@ double distanceToNearest(const cv::Point2f& corner, int rows, int cols, const cv
 /** Of all inner corners of a board of 7 x 10 squares, where they are. */
 Lattice latticeOf(const cv::Matx33d& pinhole, const Fisheye& fisheye)
 {
-  const auto at = [&](int row, int col) {
+  return omr::test::latticeOf(6, 9, [&](int col, int row) {
     return cv::Point2f(fisheye.fromPinhole(omr::test::project(pinhole, col + 1, row + 1)));
-  };
-  omr::CornerLook corner;
-  corner.found = true;
-  corner.sign = 1;
-  corner.position = at(0, 0);
-  Lattice lattice;
-  lattice.start({at(0, 0), at(0, 1) - at(0, 0), at(1, 0) - at(0, 0)}, corner);
-  for (int i = 0; i < 6; ++i)
-  {
-    for (int j = 0; j < 9; ++j)
-    {
-      corner.position = at(i, j);
-      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
-    }
-  }
-  return lattice;
+  });
 }
 
 const cv::Matx33d BOARD = omr::test::boardHomography(7, 10, {590, 440}, 85, 15);

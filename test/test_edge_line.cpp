@@ -6,6 +6,7 @@
 
 #include "checkerboards/board_judgement.h"
 #include "checkerboards/edge_growth.h"
+#include "lattices.h"
 #include "render.h"
 
 using omr::Frame;
@@ -45,22 +46,8 @@ void addBar(Render& render, double from, double to)
 /** The inner corners of the first rows. */
 Lattice firstRows(int rows)
 {
-  Lattice lattice;
-  omr::CornerLook corner;
-  corner.sign = -1;  // the squares before and behind the first corner are black
-  corner.contrast = 100;
-  corner.correlation = 1;
-  corner.position = at(1, 1);
-  lattice.start(frameAt(1, 1), corner);
-  for (int i = 0; i < rows; ++i)
-  {
-    for (int j = 0; j < COLS - 1; ++j)
-    {
-      corner.position = at(j + 1, i + 1);
-      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
-    }
-  }
-  return lattice;
+  return omr::test::latticeOf(
+      rows, COLS - 1, [](int col, int row) { return at(col + 1, row + 1); }, -1);
 }
 }  // namespace
 

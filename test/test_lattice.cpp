@@ -11,15 +11,17 @@
 #include "checkerboards/lattice_growth.h"
 #include "checkerboards/lattice_model.h"
 #include "checkerboards/lattice_prediction.h"
+#include "lattices.h"
 #include "render.h"
 
 using omr::CornerLook;
 using omr::CornerLooker;
-using omr::CornerQuery;
 using omr::Frame;
 using omr::Lattice;
 using omr::LocalFrame;
 using omr::SideEvidence;
+using omr::test::grow;
+using omr::test::latticeOf;
 using omr::test::Render;
 
 namespace
@@ -34,40 +36,6 @@ LocalFrame frameAt(const cv::Matx33d& board, double col, double row)
   return {node, right - node, below - node};
 }
 
-/** A lattice grown from one corner of the board. */
-Lattice grow(CornerLooker& looker, const LocalFrame& seed)
-{
-  Lattice lattice;
-  const CornerLook corner = looker.look(seed, CornerQuery());
-  EXPECT_TRUE(corner.found);
-  lattice.start(seed, corner);
-  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
-  return lattice;
-}
-
-/** Nodes at the positions that a function of column and row gives. */
-template <typename Position>
-Lattice latticeOf(int rows, int cols, const Position& position)
-{
-  Lattice lattice;
-  const LocalFrame seed{position(0, 0), position(1, 0) - position(0, 0), position(0, 1) - position(0, 0)};
-  CornerLook corner;
-  corner.found = true;
-  corner.sign = 1;
-  corner.contrast = 100;
-  corner.correlation = 1;
-  corner.position = seed.node;
-  lattice.start(seed, corner);
-  for (int i = 0; i < rows; ++i)
-  {
-    for (int j = 0; j < cols; ++j)
-    {
-      corner.position = position(j, i);
-      lattice.put(Lattice::SEED + i, Lattice::SEED + j, corner);
-    }
-  }
-  return lattice;
-}
 }  // namespace
 
 TEST(Lattice, aNewStartForgetsAllOfTheLast)

@@ -4,12 +4,10 @@
 
 #include "checkerboards/lattice.h"
 #include "checkerboards/lattice_gaps.h"
-#include "checkerboards/lattice_growth.h"
+#include "lattices.h"
 #include "render.h"
 
-using omr::CornerLook;
 using omr::CornerLooker;
-using omr::CornerQuery;
 using omr::Frame;
 using omr::Lattice;
 using omr::LocalFrame;
@@ -27,11 +25,7 @@ TEST(LatticeExtent, aSingleCornerBeyondAWholeLineIsTheBackgrounds)
   const Frame frame = omr::makeFrame(picture);
   CornerLooker looker(frame, 10000);
   const LocalFrame seed{at(5, 3), at(6, 3) - at(5, 3), at(5, 4) - at(5, 3)};
-  const CornerLook corner = looker.look(seed, CornerQuery());
-  ASSERT_TRUE(corner.found);
-  Lattice lattice;
-  lattice.start(seed, corner);
-  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  Lattice lattice = omr::test::grow(looker, seed);
   ASSERT_EQ(cv::Size(10, 6), lattice.box.size()) << "nothing of the background resembles a corner";
   settleExtent(lattice, looker);
   EXPECT_EQ(cv::Size(9, 6), lattice.box.size());
@@ -55,11 +49,7 @@ TEST(LatticeExtent, aSingleCornerOnPlainGroundEndsNoBoard)
   const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, 10000);
   const LocalFrame seed{at(5, 3), at(6, 3) - at(5, 3), at(5, 4) - at(5, 3)};
-  const CornerLook corner = looker.look(seed, CornerQuery());
-  ASSERT_TRUE(corner.found);
-  Lattice lattice;
-  lattice.start(seed, corner);
-  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  Lattice lattice = omr::test::grow(looker, seed);
   ASSERT_EQ(cv::Size(10, 6), lattice.box.size());
   const auto sides = settleExtent(lattice, looker);
   EXPECT_EQ(cv::Size(10, 6), lattice.box.size());
@@ -76,11 +66,7 @@ TEST(LatticeGaps, aClearLatticeGoesOnBehindAWideThing)
   const Frame frame = omr::makeFrame(render.picture());
   CornerLooker looker(frame, 10000);
   const LocalFrame seed{at(2, 3), at(3, 3) - at(2, 3), at(2, 4) - at(2, 3)};
-  const CornerLook corner = looker.look(seed, CornerQuery());
-  ASSERT_TRUE(corner.found);
-  Lattice lattice;
-  lattice.start(seed, corner);
-  growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+  Lattice lattice = omr::test::grow(looker, seed);
   ASSERT_EQ(cv::Size(3, 5), lattice.box.size());
   jumpGaps(lattice, looker);
   EXPECT_EQ(cv::Size(9, 5), lattice.box.size());

@@ -11,7 +11,6 @@
 
 using omr::FeedForward;
 using omr::HAAR_FEATURES;
-using omr::MarkerKind;
 using omr::MarkerNetwork;
 using omr::WindowLabel;
 

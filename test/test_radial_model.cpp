@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "checkerboards/lattice.h"
+#include "lattices.h"
 
 using omr::CornerLook;
 using omr::Lattice;
@@ -26,23 +27,9 @@ cv::Point2f seenBy(double focal_px, int col, int row)
 }
 
 /** @param rows, cols of its corners, the rest of the board is not found yet. */
-Lattice latticeOf(int rows, int cols, double focal_px)
+Lattice latticeSeen(int rows, int cols, double focal_px)
 {
-  CornerLook corner;
-  corner.sign = 1;
-  const auto place = [&](int col, int row) { return seenBy(focal_px, col, row); };
-  corner.position = place(0, 0);
-  Lattice lattice;
-  lattice.start({place(0, 0), place(1, 0) - place(0, 0), place(0, 1) - place(0, 0)}, corner);
-  for (int row = 0; row < rows; ++row)
-  {
-    for (int col = 0; col < cols; ++col)
-    {
-      corner.position = place(col, row);
-      lattice.put(Lattice::SEED + row, Lattice::SEED + col, corner);
-    }
-  }
-  return lattice;
+  return omr::test::latticeOf(rows, cols, [&](int col, int row) { return seenBy(focal_px, col, row); });
 }
 }  // namespace
 
@@ -50,7 +37,7 @@ TEST(RadialModel, forecastsWhereAFisheyeShowsTheRestOfTheBoard)
 {
   constexpr double FOCAL_PX = 400;
   RadialModel model;
-  ASSERT_TRUE(model.fit(latticeOf(5, 4, FOCAL_PX), PICTURE));
+  ASSERT_TRUE(model.fit(latticeSeen(5, 4, FOCAL_PX), PICTURE));
   for (int row = 0; row < 5; ++row)
   {
     for (int col = 4; col < 7; ++col)
@@ -66,7 +53,7 @@ TEST(RadialModel, forecastsWhereAFisheyeShowsTheRestOfTheBoard)
 
 TEST(RadialModel, isNoneOfCornersThatLieOtherwise)
 {
-  Lattice lattice = latticeOf(5, 4, 400);
+  Lattice lattice = latticeSeen(5, 4, 400);
   CornerLook corner;
   corner.sign = 1;
   for (int row = 0; row < 5; ++row)
@@ -82,8 +69,8 @@ TEST(RadialModel, isNoneOfCornersThatLieOtherwise)
 TEST(RadialModel, isNoneOfTooFewCorners)
 {
   RadialModel model;
-  EXPECT_FALSE(model.fit(latticeOf(1, 1, 400), PICTURE));
-  EXPECT_FALSE(model.fit(latticeOf(1, 4, 400), PICTURE));
+  EXPECT_FALSE(model.fit(latticeSeen(1, 1, 400), PICTURE));
+  EXPECT_FALSE(model.fit(latticeSeen(1, 4, 400), PICTURE));
 }
 
 int main(int argc, char** argv)

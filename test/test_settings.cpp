@@ -6,7 +6,6 @@
 
 #include "outdoor_omr/settings.h"
 
-using omr::FillMethod;
 using omr::Filter;
 using omr::Settings;
 

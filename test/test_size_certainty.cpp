@@ -5,11 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "lattices.h"
 #include "render.h"
 
-using omr::Frame;
 using omr::Lattice;
-using omr::LocalFrame;
 using omr::test::Render;
 
 namespace
@@ -47,21 +46,8 @@ class SizeCertainty : public testing::Test
   /** @param cols of squares that the lattice has. */
   bool isCertain(int cols = COLS) const
   {
-    omr::CornerLook corner;
-    corner.sign = -1;  // the squares before and behind the first corner are black
-    corner.contrast = 100;
-    corner.correlation = 1;
-    corner.position = at(1, 1);
-    Lattice lattice;
-    lattice.start({at(1, 1), at(2, 1) - at(1, 1), at(1, 2) - at(1, 1)}, corner);
-    for (int i = 1; i < ROWS; ++i)
-    {
-      for (int j = 1; j < cols; ++j)
-      {
-        corner.position = at(j, i);
-        lattice.put(Lattice::SEED + i - 1, Lattice::SEED + j - 1, corner);
-      }
-    }
+    const Lattice lattice = omr::test::latticeOf(
+        ROWS - 1, cols - 1, [this](int col, int row) { return at(col + 1, row + 1); }, -1);
     std::vector<bool> seen(lattice.box.area(), true);
     for (int i = 0; i < lattice.box.height; ++i)
     {

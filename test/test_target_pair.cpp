@@ -7,7 +7,6 @@
 
 using omr::Camera;
 using omr::ImageKind;
-using omr::Part;
 using omr::PartCheckerboard;
 using omr::PartTarget;
 using omr::PointPair;
