@@ -7,7 +7,7 @@ Runs omr_detect over every set of DATA_DIR, calls the scorer DATA_DIR/score.py a
   summary.md       the tables that README quotes
   SET.FILTER.jsonl what was detected;  SET.json  what the scorer says of it;  SET.PEER.*  the same of a peer
   *.png            plots: recall over the size of squares and rings, over the hidden share, per lighting
-  failures.jpg     contact sheet of the pictures with misses or false detections
+  failures.jpg     contact sheet: a tile for each marker missed, false or misread
 The set "doe", the paper's experiment, runs with every prefilter of --filters (the paper's third algorithm factor), each
 other set with the default one. Peers are other detectors (see peers.py); they take hours for all sets.
 """
@@ -122,8 +122,8 @@ def main():
             pictures += results[name]['pictures']
     summary.write(results, peer_results, EXPERIMENT, os.path.join(arguments.output, 'summary.md'))
     plots.write_all(pictures, arguments.output)
-    shown = contact_sheet.write(pictures, arguments.data, arguments.output)
-    print('%d pictures with misses or false detections; the report is in %s' % (shown, arguments.output))
+    failed, misread = contact_sheet.write(pictures, arguments.data, arguments.output)
+    print('%d markers missed or false, %d misread; the report is in %s' % (failed, misread, arguments.output))
 
 
 if __name__ == '__main__':

@@ -13,6 +13,8 @@ import numpy as np
 import rosbag
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), 'scripts')
+sys.path.insert(0, SCRIPTS)
+import contact_sheet  # noqa: E402
 OMR_SHEET = None
 
 # Stands in for omr_detect: finds nothing but a checkerboard that is not there.
@@ -133,12 +135,32 @@ class Scripts(unittest.TestCase):
             self.assertEqual('scored 3 files\nscored 1 files\n', file.read())
         with open(self.path('report', 'summary.md')) as file:
             self.assertIn('| other (2) | 1 / 1 / 1 | 50.0, 50.0 | - | 1 / 1 / 1 | -, 50.0 | - | - | 4, 9 |', file.read())
-        self.assertIn('4 pictures with misses or false detections', result.stdout)
+        self.assertIn('4 markers missed or false, 0 misread', result.stdout)
         sheet = cv2.imread(self.path('report', 'failures.jpg')).astype(int)
-        self.assertEqual((960, 1920), sheet.shape[:2])
-        # The missed board's outline is red, the false detection's yellow.
-        self.assertTrue(((sheet[..., 2] > 180) & (sheet[..., 1] < 80)).any())
-        self.assertTrue(((sheet[..., 2] > 180) & (sheet[..., 1] > 180) & (sheet[..., 0] < 80)).any())
+        # Four tiles in rows of three; left half as seen, in the right one the missed board red, what was read yellow.
+        self.assertEqual((2 * 342, 3 * 640), sheet.shape[:2])
+        is_red, is_yellow = ((sheet[..., 2] > 180) & (sheet[..., 0] < 80) & part
+                             for part in (sheet[..., 1] < 80, sheet[..., 1] > 180))
+        for colored in (is_red, is_yellow):
+            self.assertFalse(colored[22:342, :320].any())
+            self.assertTrue(colored[22:342, 320:640].any())
+
+    def test_failures_are_told_marker_by_marker(self):
+        def square(x, text, color):
+            return contact_sheet.Marker(np.array([[x, 0], [x + 10, 0], [x + 10, 10], [x, 10]], float), text, color)
+
+        def failures(truths, detections):
+            return [(failure.caption, failure.is_minor) for failure in contact_sheet.failures(truths, detections)]
+
+        found, missed = square(0, 'RGB', contact_sheet.GREEN), square(20, 'WPW', contact_sheet.RED)
+        nameless, ignored = square(40, '', contact_sheet.GREEN), square(60, 'BRB', contact_sheet.GREY)
+        truths = [found, missed, nameless, ignored]
+        read = [square(x, text, contact_sheet.YELLOW) for x, text in ((0, 'RGB'), (40, 'PWP'), (60, 'BRR'))]
+        self.assertEqual([('WPW, read: -', False)], failures(truths, read))
+        self.assertEqual([('RGB, read: RGB R?B', True)],
+                         failures([found], [read[0], square(1, 'R?B', contact_sheet.YELLOW)]))
+        self.assertEqual([('RGB, read: R?B', True)], failures([found], [square(0, 'R?B', contact_sheet.YELLOW)]))
+        self.assertEqual([('nothing, read: PWP', False)], failures([found], [read[0], read[1]]))
 
     def test_evaluate_chosen_sets_and_filters(self):
         self.make_data()
