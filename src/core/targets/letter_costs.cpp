@@ -5,13 +5,13 @@
 
 namespace omr
 {
-namespace
-{
 // Reflectance relative to the paper (red, green, blue): medians over prints and renders, spread .25 of the logarithm.
 const std::array<LinearColor, LETTERS> REFLECTANCE = {LinearColor(1, 1, 1), LinearColor(.069, .068, .07),
                                                       LinearColor(.66, .062, .055), LinearColor(.053, .33, .095),
                                                       LinearColor(.06, .09, .38)};
 
+namespace
+{
 constexpr double DARKEST = .03;         // ink; cameras that clip the blacks show less
 constexpr double FLOOR = .03;           // of the white: glare and noise hide darker differences
 constexpr double DEVIATION = .4;        // of the logarithm of the reflectance, its mean over the channels apart

@@ -10,6 +10,9 @@ namespace omr
 constexpr int LETTERS = 5;
 constexpr std::array<char, LETTERS> LETTER = {'W', 'P', 'R', 'G', 'B'};  ///< of the key
 
+/** Reflectances of the letters' inks relative to the paper: red, green, blue. */
+extern const std::array<LinearColor, LETTERS> REFLECTANCE;
+
 /** Of each letter for one ring. */
 using Costs = std::array<double, LETTERS>;
 

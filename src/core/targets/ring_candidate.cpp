@@ -119,9 +119,7 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
     }
   }
   candidate.boundaries.resize(rings.radii.size());
-  const AngleBins visible = visibleDirections(candidate.boundaries);
-  candidate.visible = share(visible);
-  candidate.evidence = evidenceOf(candidate.boundaries, visible);
+  weighEvidence(candidate);
   return true;
 }
 
@@ -232,6 +230,13 @@ bool complete(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   return candidate.ring_count > 0;
 }
 }  // namespace
+
+void weighEvidence(RingCandidate& candidate)
+{
+  const AngleBins visible = visibleDirections(candidate.boundaries);
+  candidate.visible = share(visible);
+  candidate.evidence = evidenceOf(candidate.boundaries, visible);
+}
 
 AngleBins visibleDirections(const std::vector<Boundary>& boundaries)
 {

@@ -28,6 +28,9 @@ struct RingCandidate
 /** Directions in which at least half of the boundaries show: an occluder hides several rings at once. */
 AngleBins visibleDirections(const std::vector<Boundary>& boundaries);
 
+/** Sets visible and evidence as the boundaries have them. */
+void weighEvidence(RingCandidate& candidate);
+
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
 

@@ -1,17 +1,15 @@
 #include "ring_deblur.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "ring_fit.h"
+#include "ring_samples.h"
 
 namespace omr
 {
 namespace
 {
-constexpr int ANGLES = RingProfile::ANGLES;
-
 // A further boundary must explain this much: at .018 one of 147 targets of the field gets a ring too many, at .025 one
 // in "distance" lacks one.
 constexpr double LEAST_EXPLAINED = .0225;  // fall of the root mean square, relative to the strongest contrast
@@ -22,49 +20,6 @@ constexpr double MERGED_WIDTH = 1.6;  // of the narrowest ring: least width of t
 constexpr double NARROWEST = 2;       // ring [px]
 constexpr double SEARCH_STEP = .5;    // [px]
 
-/** Brightness and the differences of red and blue to it. */
-cv::Vec3d toHue(const cv::Vec3d& bgr)
-{
-  const double brightness = .114 * bgr[0] + .587 * bgr[1] + .299 * bgr[2];
-  return {brightness, bgr[2] - brightness, bgr[0] - brightness};
-}
-
-cv::Vec3d fromHue(const cv::Vec3d& hue)
-{
-  const double red = hue[0] + hue[1];
-  const double blue = hue[0] + hue[2];
-  return {blue, (hue[0] - .299 * red - .114 * blue) / .587, red};
-}
-
-/** Median over the directions of each channel at each radius. */
-std::vector<cv::Vec3d> medianProfile(const RingProfile& profile, int count)
-{
-  std::vector<cv::Vec3d> medians;
-  for (int i = 0; i < count; ++i)
-  {
-    cv::Vec3d median;
-    for (int c = 0; c < 3; ++c)
-    {
-      std::array<float, ANGLES> values;
-      int seen = 0;
-      for (int angle = 0; angle < ANGLES; ++angle)
-      {
-        if (i < profile.inside[angle])
-        {
-          values[seen++] = profile.greyRay(angle)[i][c];
-        }
-      }
-      if (seen == 0)
-      {
-        return medians;
-      }
-      std::nth_element(values.begin(), values.begin() + seen / 2, values.begin() + seen);
-      median[c] = values[seen / 2];
-    }
-    medians.push_back(toHue(median));
-  }
-  return medians;
-}
 /** Largest difference of two neighbours [grey levels]. */
 double strongestContrast(const RingFit::Result& fit)
 {
@@ -75,17 +30,11 @@ double strongestContrast(const RingFit::Result& fit)
   }
   return contrast;
 }
-
-std::vector<cv::Vec3d> samplesWithin(const RingProfile& profile, const std::vector<double>& radii)
-{
-  const int count = std::min(profile.count, static_cast<int>((radii.back() + RingFit::SURROUNDING) / profile.step));
-  return medianProfile(profile, count);
-}
 }  // namespace
 
 std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::vector<double>& radii)
 {
-  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
   std::vector<cv::Vec3d> colors = RingFit(samples, profile.step, radii).fit().colors;
   for (cv::Vec3d& color : colors)
   {
@@ -100,14 +49,14 @@ std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::ve
 
 double unexplained(const RingProfile& profile, const std::vector<double>& radii)
 {
-  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
   const RingFit::Result whole = RingFit(samples, profile.step, radii).fit();
   return whole.rms / std::max(1., strongestContrast(whole));
 }
 
 bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
 {
-  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
   RingFit fit(samples, profile.step, radii);
   const RingFit::Result with = fit.fit();
   fit.erase(k);
@@ -117,7 +66,7 @@ bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::s
 
 double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii)
 {
-  const std::vector<cv::Vec3d> samples = samplesWithin(profile, radii);
+  const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
   RingFit fit(samples, profile.step, radii);
   const RingFit::Result whole = fit.fit();
   const double narrowest = narrowestRing(radii);

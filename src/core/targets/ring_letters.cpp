@@ -1,8 +1,11 @@
 #include "ring_letters.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "color_key.h"
+#include "narrow_rings.h"
 #include "ring_colors.h"
 #include "ring_deblur.h"
 
@@ -20,8 +23,10 @@ constexpr double EVIDENT_SHARE = .5;
 // What uniform rings leave unexplained of a target with narrow ones, relative to its contrast: more shows that the blur
 // hides rings. Of 25 targets of the field with a ring too many or too few 9 have more, of 132 others 1. Sharp rings of
 // 2 to 3 px, which few samples show, have up to .065.
-constexpr double NARROW = 5;  // [px]
+constexpr double NARROW = 5;       // [px]
+constexpr double NARROW_MEAN = 7;  // width of all rings of a target with narrow ones [px]
 constexpr double MOST_UNEXPLAINED = .057;
+constexpr double SAME_BOUNDARY = .5;            // most, of the width of the narrowest ring
 constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
 /** Whether there is a boundary, whatever the colours. */
@@ -70,11 +75,45 @@ std::vector<double> scaledBy(double factor, std::vector<double> values)
   std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
   return values;
 }
+/** Whether the blur merges the rings, and not one that is none with its neighbours. */
+bool areNarrow(const std::vector<double>& radii)
+{
+  return narrowestRing(radii) < NARROW && radii.back() < NARROW_MEAN * static_cast<double>(radii.size());
+}
+
+/** Gives the candidate other rings, with what is known of those of their boundaries that were found. */
+void takeRings(std::vector<double> radii, RingCandidate& candidate)
+{
+  const double apart = SAME_BOUNDARY * narrowestRing(radii);
+  std::vector<Boundary> found;
+  for (std::size_t k = 0; k < candidate.boundaries.size(); ++k)
+  {
+    const bool stays = std::any_of(radii.begin(), radii.end(),
+                                   [&](double radius) { return std::abs(radius - candidate.rings.radii[k]) < apart; });
+    if (stays)
+    {
+      found.push_back(candidate.boundaries[k]);
+    }
+  }
+  candidate.rings.radii = std::move(radii);
+  candidate.ring_count = static_cast<int>(candidate.rings.radii.size());
+  if (!found.empty() && found.size() < candidate.boundaries.size())
+  {
+    candidate.boundaries = std::move(found);
+    weighEvidence(candidate);
+  }
+}
 }  // namespace
 
 std::string readLetters(RingCandidate& candidate)
 {
   std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
+  NarrowRings rings;
+  if (areNarrow(candidate.rings.radii) && readNarrowRings(*candidate.profile, radii, candidate.profile_scale, rings))
+  {
+    takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
+    return rings.letters;
+  }
   std::string letters = readColors(*candidate.profile, candidate.boundaries, radii);
   candidate.rings.radii = scaledBy(1. / candidate.profile_scale, radii);
   return letters;

@@ -1,0 +1,351 @@
+#include "ink_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "blurred_disk.h"
+#include "color_key.h"
+#include "letter_costs.h"
+#include "ring_samples.h"
+
+namespace omr
+{
+namespace
+{
+// Deviations of the blur, of brightness and of hue, which colour filter and JPEG widen [px].
+constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
+constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
+constexpr double NOISE = 5;    // of what a pixel adds to the samples [grey levels]
+constexpr double SPREAD = 14;  // of an ink; with 20 of 645 letters 16 more are not read [grey levels]
+constexpr std::array<double, 4> HAZES = {0, .06, .15, .3};
+constexpr double HAZE_COST = 10;  // of one as bright as the white
+
+using Inks = std::array<cv::Vec3d, LETTERS>;
+
+/** Inverse of linearLight(). */
+double greyLevelOf(double light)
+{
+  light = std::clamp(light, 0., 1.);
+  return 255 * (light <= .0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - .055);
+}
+
+Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
+{
+  Inks inks;
+  for (int letter = 0; letter < LETTERS; ++letter)
+  {
+    cv::Vec3d bgr;
+    for (int c = 0; c < 3; ++c)
+    {
+      const double reflectance = haze + (1 - haze) * REFLECTANCE[letter][2 - c];
+      bgr[c] = greyLevelOf(linearLight(white_bgr[c]) * reflectance);
+    }
+    inks[letter] = toHue(bgr);
+  }
+  return inks;
+}
+
+/** Of the inks next to the rings' colours those of which neighbours differ. */
+std::vector<int> nearestLetters(const Inks& inks, const std::vector<cv::Vec3d>& colors)
+{
+  std::vector<int> letters(colors.size());
+  for (std::size_t k = colors.size(); k-- > 0;)
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int letter = 0; letter < LETTERS; ++letter)
+    {
+      const double distance = cv::norm(inks[letter] - colors[k]);
+      if (distance < nearest && (k + 1 == colors.size() || letters[k + 1] != letter))
+      {
+        nearest = distance;
+        letters[k] = letter;
+      }
+    }
+  }
+  return letters;
+}
+}  // namespace
+
+/** What brightness (part 0) or hue (part 1) adds to the rest, as a function of the rings' inks c: c Q c - 2 l c + r. */
+class InkFit::Part
+{
+ public:
+  Part(const InkFit& fit, int part, double deviation, const std::vector<double>& radii)
+  {
+    const auto count = static_cast<int>(fit.samples_.size());
+    const auto size = static_cast<int>(radii.size()) + 1;
+    cv::Mat_<double> shares(count, size);  // of each ring in each sample's light
+    cv::Mat_<double> values(count, part + 1);
+    for (int i = 0; i < count; ++i)
+    {
+      double inner = 0;
+      for (int k = 0; k < size; ++k)
+      {
+        const double outer =
+            k + 1 < size ? blurredDisk(i * fit.step_, radii[static_cast<std::size_t>(k)], fit.scale_ * deviation) : 1;
+        shares(i, k) = outer - inner;
+        inner = outer;
+      }
+      for (int c = 0; c <= part; ++c)
+      {
+        values(i, c) = fit.samples_[i][part + c];
+      }
+    }
+    const double weight = fit.step_ / fit.scale_ / (NOISE * NOISE);  // a pixel counts once, however many its samples
+    const double prior = 1 / (SPREAD * SPREAD);
+    const cv::Mat right = weight * shares.t() * values;
+    const cv::Mat inverse =
+        cv::Mat(weight * shares.t() * shares + prior * cv::Mat::eye(size, size, CV_64F)).inv(cv::DECOMP_CHOLESKY);
+    squares = prior * cv::Mat::eye(size, size, CV_64F) - prior * prior * inverse;
+    linear = prior * inverse * right;
+    rest = weight * values.dot(values) - right.dot(inverse * right);
+  }
+
+  cv::Mat_<double> squares;
+  cv::Mat_<double> linear;
+  double rest = 0;
+};
+
+/** The rest as a function of the rings' inks. */
+class InkFit::Rest
+{
+ public:
+  Rest(const Part& brightness, const Part& hue) : brightness_(brightness), hue_(hue)
+  {
+  }
+
+  /** Half of the slope, of each ring. */
+  std::vector<cv::Vec3d> slopes(const std::vector<cv::Vec3d>& inks) const
+  {
+    const auto size = static_cast<int>(inks.size());
+    std::vector<cv::Vec3d> result(inks.size());
+    for (int k = 0; k < size; ++k)
+    {
+      result[k] -= linear(k);
+      for (int j = 0; j < size; ++j)
+      {
+        result[k] += inks[j].mul(square(k, j));
+      }
+    }
+    return result;
+  }
+
+  double of(const std::vector<cv::Vec3d>& inks) const
+  {
+    double rest = brightness_.rest + hue_.rest;
+    const std::vector<cv::Vec3d> slope = slopes(inks);
+    for (std::size_t k = 0; k < inks.size(); ++k)
+    {
+      rest += inks[k].dot(slope[k] - linear(static_cast<int>(k)));
+    }
+    return rest;
+  }
+
+  cv::Vec3d square(int k, int j) const
+  {
+    return {brightness_.squares(k, j), hue_.squares(k, j), hue_.squares(k, j)};
+  }
+
+ private:
+  cv::Vec3d linear(int k) const
+  {
+    return {brightness_.linear(k, 0), hue_.linear(k, 0), hue_.linear(k, 1)};
+  }
+
+  const Part& brightness_;
+  const Part& hue_;
+};
+
+/** Letters of the rings, of which neighbours differ, and the rest that they leave. */
+class InkFit::Sequence
+{
+ public:
+  Sequence(const Rest& rest, const Inks& inks, std::vector<int> letters, const cv::Vec3d& around)
+      : rest_(rest), inks_(inks), letters_(std::move(letters)), colors_(letters_.size() + 1, around)
+  {
+    std::transform(letters_.begin(), letters_.end(), colors_.begin(), [&](int letter) { return inks_[letter]; });
+    slopes_ = rest.slopes(colors_);
+  }
+
+  /** Changes one ring or two neighbours as long as that explains more. */
+  void descend()
+  {
+    const int count = static_cast<int>(letters_.size());
+    for (bool is_better = true; is_better;)
+    {
+      is_better = false;
+      for (int k = 0; k < count; ++k)
+      {
+        for (int pair = 0; pair < LETTERS * LETTERS; ++pair)
+        {
+          const Change change = {k > 0 ? letters_[k - 1] : NONE, pair % LETTERS, k + 1 < count ? pair / LETTERS : NONE};
+          if (further(k, change) < -NOTHING)
+          {
+            apply(k, change);
+            is_better = true;
+          }
+        }
+      }
+    }
+  }
+
+  double rest() const
+  {
+    return rest_.of(colors_);
+  }
+
+  const std::vector<int>& letters() const
+  {
+    return letters_;
+  }
+
+  /** Further rest with another letter of a ring, of each ring. */
+  std::vector<double> margins() const
+  {
+    std::vector<double> result;
+    const int count = static_cast<int>(letters_.size());
+    for (int k = 0; k < count; ++k)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      for (int triple = 0; triple < LETTERS * LETTERS * LETTERS; ++triple)
+      {
+        const Change change = {k > 0 ? triple / LETTERS % LETTERS : NONE, triple % LETTERS,
+                               k + 1 < count ? triple / LETTERS / LETTERS : NONE};
+        if (change[1] != letters_[k])
+        {
+          least = std::min(least, further(k, change));
+        }
+      }
+      result.push_back(least);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr int NONE = -1;  // a letter where there is no ring
+  static constexpr double NOTHING = 1e-6;
+  using Change = std::array<int, 3>;  // letters of a ring's inner neighbour, its own, of its outer neighbour
+
+  /** Further rest with other letters of ring k and its neighbours; infinite where equal ones meet. */
+  double further(int k, const Change& change) const
+  {
+    const int count = static_cast<int>(letters_.size());
+    if (change[0] == change[1] || change[1] == change[2] || (k > 1 && letters_[k - 2] == change[0]) ||
+        (k + 2 < count && letters_[k + 2] == change[2]))
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    double rest = 0;
+    std::array<cv::Vec3d, 3> steps;
+    for (int i = 0; i < 3; ++i)
+    {
+      const int ring = k + i - 1;
+      if (change[i] == NONE || change[i] == letters_[ring])
+      {
+        continue;
+      }
+      steps[i] = inks_[change[i]] - colors_[ring];
+      rest += 2 * steps[i].dot(slopes_[ring]) + steps[i].dot(steps[i].mul(rest_.square(ring, ring)));
+      for (int j = k > 0 ? 0 : 1; j < i; ++j)
+      {
+        rest += 2 * steps[j].dot(steps[i].mul(rest_.square(ring, k + j - 1)));
+      }
+    }
+    return rest;
+  }
+
+  void apply(int k, const Change& change)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      if (change[i] != NONE)
+      {
+        letters_[k + i - 1] = change[i];
+        colors_[k + i - 1] = inks_[change[i]];
+      }
+    }
+    slopes_ = rest_.slopes(colors_);
+  }
+
+  const Rest& rest_;
+  const Inks& inks_;
+  std::vector<int> letters_;
+  std::vector<cv::Vec3d> colors_;
+  std::vector<cv::Vec3d> slopes_;
+};
+InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale)
+    : samples_(samples), step_(step), scale_(scale), deviations_(BRIGHTNESS_BLUR[0], HUE_BLUR[0])
+{
+}
+
+void InkFit::chooseBlur(const std::vector<std::vector<double>>& sets_of_radii)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& radii : sets_of_radii)
+  {
+    std::vector<Part> hues;
+    hues.reserve(HUE_BLUR.size());
+    for (const double of_hue : HUE_BLUR)
+    {
+      hues.emplace_back(*this, 1, of_hue, radii);
+    }
+    for (const double of_brightness : BRIGHTNESS_BLUR)
+    {
+      const Part brightness(*this, 0, of_brightness, radii);
+      for (std::size_t i = 0; i < hues.size(); ++i)
+      {
+        const double rest = explain(Rest(brightness, hues[i]), radii).rest;
+        if (rest < least)
+        {
+          least = rest;
+          deviations_ = {of_brightness, HUE_BLUR[i]};
+        }
+      }
+    }
+  }
+}
+
+InkFit::Result InkFit::explain(const std::vector<double>& radii) const
+{
+  const Part brightness(*this, 0, deviations_[0], radii);
+  const Part hue(*this, 1, deviations_[1], radii);
+  return explain(Rest(brightness, hue), radii);
+}
+
+InkFit::Result InkFit::explain(const Rest& rest, const std::vector<double>& radii) const
+{
+  std::vector<cv::Vec3d> middles;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    const double middle = k == 0 ? 0 : .5 * (radii[k - 1] + radii[k]);
+    middles.push_back(samples_[std::min(samples_.size() - 1, static_cast<std::size_t>(middle / step_))]);
+  }
+  const cv::Vec3d& around = samples_.back();
+  Result best;
+  for (const double haze : HAZES)
+  {
+    const Inks inks = inksUnder(fromHue(around), haze);
+    Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
+    sequence.descend();
+    const double found = sequence.rest() + HAZE_COST * haze;
+    if (found < best.rest)
+    {
+      best = {found, sequence.letters(), haze};
+    }
+  }
+  return best;
+}
+
+std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& explained) const
+{
+  const Part brightness(*this, 0, deviations_[0], radii);
+  const Part hue(*this, 1, deviations_[1], radii);
+  const Inks inks = inksUnder(fromHue(samples_.back()), explained.haze);
+  const Rest rest(brightness, hue);
+  return Sequence(rest, inks, explained.letters, samples_.back()).margins();
+}
+
+}  // namespace omr

@@ -1,0 +1,55 @@
+#ifndef OUTDOOR_OMR_CORE_INK_FIT_H
+#define OUTDOOR_OMR_CORE_INK_FIT_H
+
+#include <limits>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace omr
+{
+/**
+ * Explains samples along a ray by rings of the key's inks, seen through the blur of lens and camera. An ink may be a
+ * little off, and a haze may lie on all; so of rings that the blur merges those are taken whose mixture is seen.
+ */
+class InkFit
+{
+ public:
+  struct Result
+  {
+    double rest = std::numeric_limits<double>::infinity();  ///< squared deviations of samples and inks
+    std::vector<int> letters;                               ///< of the rings, indices into LETTER
+    double haze = 0;                                        ///< that lies on them, relative to the white
+  };
+
+  /**
+   * @param samples brightness and hue, from the centre outwards, the last one of what is around; must outlive this.
+   * @param step    between them [px].
+   * @param scale   pixels of these a pixel of the camera, which tells how wide its blur is.
+   */
+  InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale);
+
+  /** Takes the blur with which one of these is explained best; before it, the usual one counts. */
+  void chooseBlur(const std::vector<std::vector<double>>& sets_of_radii);
+
+  /** @param radii of the boundaries, ascending, not empty [px]. */
+  Result explain(const std::vector<double>& radii) const;
+
+  /** Further rest if a ring had another letter, of each ring. @param explained of the same radii */
+  std::vector<double> margins(const std::vector<double>& radii, const Result& explained) const;
+
+ private:
+  class Part;
+  class Rest;
+  class Sequence;
+
+  Result explain(const Rest& rest, const std::vector<double>& radii) const;
+
+  const std::vector<cv::Vec3d>& samples_;
+  double step_;
+  double scale_;
+  cv::Vec2d deviations_;  // of the blur of brightness, of hue [px]
+};
+
+}  // namespace omr
+
+#endif

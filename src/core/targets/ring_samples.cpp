@@ -1,0 +1,64 @@
+#include "ring_samples.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ring_fit.h"
+
+namespace omr
+{
+namespace
+{
+constexpr int ANGLES = RingProfile::ANGLES;
+
+/** Median over the directions of each channel at each radius. */
+std::vector<cv::Vec3d> medianProfile(const RingProfile& profile, int count)
+{
+  std::vector<cv::Vec3d> medians;
+  for (int i = 0; i < count; ++i)
+  {
+    cv::Vec3d median;
+    for (int c = 0; c < 3; ++c)
+    {
+      std::array<float, ANGLES> values;
+      int seen = 0;
+      for (int angle = 0; angle < ANGLES; ++angle)
+      {
+        if (i < profile.inside[angle])
+        {
+          values[seen++] = profile.greyRay(angle)[i][c];
+        }
+      }
+      if (seen == 0)
+      {
+        return medians;
+      }
+      std::nth_element(values.begin(), values.begin() + seen / 2, values.begin() + seen);
+      median[c] = values[seen / 2];
+    }
+    medians.push_back(toHue(median));
+  }
+  return medians;
+}
+}  // namespace
+
+cv::Vec3d toHue(const cv::Vec3d& bgr)
+{
+  const double brightness = .114 * bgr[0] + .587 * bgr[1] + .299 * bgr[2];
+  return {brightness, bgr[2] - brightness, bgr[0] - brightness};
+}
+
+cv::Vec3d fromHue(const cv::Vec3d& hue)
+{
+  const double red = hue[0] + hue[1];
+  const double blue = hue[0] + hue[2];
+  return {blue, (hue[0] - .299 * red - .114 * blue) / .587, red};
+}
+
+std::vector<cv::Vec3d> medianSamples(const RingProfile& profile, const std::vector<double>& radii)
+{
+  const int count = std::min(profile.count, static_cast<int>((radii.back() + RingFit::SURROUNDING) / profile.step));
+  return medianProfile(profile, count);
+}
+
+}  // namespace omr
