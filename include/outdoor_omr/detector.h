@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_DETECTOR_H
 #define OUTDOOR_OMR_DETECTOR_H
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 
 namespace omr
 {
+class Worker;
+
 /** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. Not thread-safe;
  * targets are searched in a second thread beside all other steps. */
 class Detector
@@ -21,6 +24,7 @@ class Detector
  public:
   /** @param device and errors: see FillPipeline::FillPipeline(). */
   explicit Detector(const std::string& device = "auto");
+  ~Detector();
 
   /** In the place of the default network, see omr_train. */
   void setNetwork(const MarkerNetwork& network);
@@ -50,6 +54,8 @@ class Detector
   RegionMap regions_;
   RegionMap enlarged_regions_;
   std::vector<MarkerScores> window_scores_;
+  std::unique_ptr<Worker> target_worker_;
+  std::unique_ptr<Worker> frame_worker_;
 };
 
 }  // namespace omr

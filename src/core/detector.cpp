@@ -9,6 +9,7 @@
 #include "outdoor_omr/candidates.h"
 #include "outdoor_omr/frame.h"
 #include "targets/targets.h"
+#include "worker.h"
 
 namespace omr
 {
@@ -36,9 +37,12 @@ class StopWatch
 };
 }  // namespace
 
-Detector::Detector(const std::string& device) : pipeline_(device)
+Detector::Detector(const std::string& device)
+    : pipeline_(device), target_worker_(std::make_unique<Worker>()), frame_worker_(std::make_unique<Worker>())
 {
 }
+
+Detector::~Detector() = default;
 
 void Detector::setNetwork(const MarkerNetwork& network)
 {
@@ -50,12 +54,12 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
 {
   // Half of the search for targets and the pyramid need no regions: they are made beside the fill pipeline.
   TargetSearch targets(bgr, settings);
-  std::future<void> image_look;
+  Task image_look;
   if (settings.detect_targets)
   {
-    image_look = std::async([&] { targets.lookAtImage(); });
+    image_look = target_worker_->begin([&] { targets.lookAtImage(); });
   }
-  std::future<void> pyramid = std::async([&] {
+  Task pyramid = frame_worker_->begin([&] {
     makeFrame(bgr, frame_);
     if (settings.detect_targets)
     {
@@ -67,11 +71,11 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   pyramid.get();
   watch.step("pyramid");
   Markers markers;
-  std::future<void> look;
+  Task look;
   std::promise<void> boards_expected;  // is destroyed before the look, which would wait for it
   if (settings.detect_targets)
   {
-    look = std::async([&, expected = boards_expected.get_future()]() mutable {
+    look = target_worker_->begin([&, expected = boards_expected.get_future().share()] {
       image_look.get();
       targets.lookAtRegions(regions);
       expected.get();
