@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <opencv2/core.hpp>
+#include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
 namespace omr
@@ -16,7 +16,9 @@ class PointGrid
 {
  public:
   static constexpr std::size_t MAX_NEIGHBOURS = 8;
+  static constexpr int MAX_POINTS = 1 << 13;
 
+  /** @param points at most MAX_POINTS. */
   PointGrid(const std::vector<cv::Point>& points, const cv::Size& size)
       : cols_(size.width / CELL + 1),
         rows_(size.height / CELL + 1),
@@ -52,22 +54,22 @@ class PointGrid
         continue;
       }
       Nearest nearest;
-      nearest.fill(NONE);
       for (int y = cells.y; y < cells.br().y; ++y)
       {
         const int to = first_[y * cols_ + cells.br().x];
         for (int i = first_[y * cols_ + cells.x]; i < to; ++i)
         {
-          insert(i, sorted_[i] - center, nearest);
+          nearest.insert(keyOf(i, sorted_[i] - center));
         }
       }
-      if (nearest.back() < NONE || reach == MAX_REACH)
+      const std::array<float, MAX_NEIGHBOURS> keys = nearest.keys();
+      if (keys.back() < NONE || reach == MAX_REACH)
       {
         found.clear();
-        for (auto key = nearest.begin(); key != nearest.end() && *key < NONE; ++key)
+        for (auto key = keys.begin(); key != keys.end() && *key < NONE; ++key)
         {
-          const auto index = static_cast<std::size_t>(*key & INDEX);
-          found.push_back({static_cast<int>(*key >> INDEX_BITS), sorted_[index] - center});
+          const auto whole = static_cast<int>(*key);
+          found.push_back({whole / MAX_POINTS, sorted_[whole % MAX_POINTS] - center});
         }
         break;
       }
@@ -80,25 +82,44 @@ class PointGrid
   static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
   static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
 
-  // The square of a neighbour's distance and its index: of those equally far the first one comes first.
-  using Key = std::int64_t;
-  using Nearest = std::array<Key, MAX_NEIGHBOURS>;
-  static constexpr int INDEX_BITS = 32;
-  static constexpr Key INDEX = (Key{1} << INDEX_BITS) - 1;
-  static constexpr Key NONE = Key{MAX_SQUARED} << INDEX_BITS;
+  // A key is the square of a neighbour's distance and its index, so that of those equally far the first one comes first:
+  // a whole number that a float holds, as its minimum and maximum are one instruction on every processor.
+  static constexpr float NONE = static_cast<float>(MAX_SQUARED * MAX_POINTS);
+  static_assert(MAX_SQUARED * MAX_POINTS <= 1 << 24);
 
-  /** Where it belongs; the farthest goes. Without a branch: none could be foreseen. */
-  static void insert(int index, const cv::Point& offset, Nearest& sorted)
+  static float keyOf(int index, const cv::Point& offset)
   {
     const int squared = offset.dot(offset);
-    Key key = squared >= MIN_SQUARED ? Key{squared} << INDEX_BITS | index : NONE;
-    for (Key& place : sorted)
-    {
-      const Key nearer = std::min(place, key);
-      key = std::max(place, key);
-      place = nearer;
-    }
+    return squared >= MIN_SQUARED ? static_cast<float>(squared * MAX_POINTS + index) : NONE;
   }
+
+  /** The least keys, ascending. */
+  class Nearest
+  {
+   public:
+    /** Where it belongs; the largest goes. All places at once: each keeps its own, or takes the key or the one before.
+     * One by one it took a twentieth of the CPU time on clutter. */
+    void insert(float key)
+    {
+      const cv::v_float32x4 keys = cv::v_setall_f32(key);
+      const cv::v_float32x4 before_low = cv::v_extract<3>(cv::v_setzero_f32(), low_);
+      const cv::v_float32x4 before_high = cv::v_extract<3>(low_, high_);
+      low_ = cv::v_min(low_, cv::v_max(before_low, keys));
+      high_ = cv::v_min(high_, cv::v_max(before_high, keys));
+    }
+
+    std::array<float, MAX_NEIGHBOURS> keys() const
+    {
+      std::array<float, MAX_NEIGHBOURS> keys;
+      cv::v_store(keys.data(), low_);
+      cv::v_store(keys.data() + MAX_NEIGHBOURS / 2, high_);
+      return keys;
+    }
+
+   private:
+    cv::v_float32x4 low_ = cv::v_setall_f32(NONE);
+    cv::v_float32x4 high_ = cv::v_setall_f32(NONE);
+  };
 
   cv::Rect cellsAround(const cv::Point& point, int reach) const
   {

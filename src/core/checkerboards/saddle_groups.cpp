@@ -15,6 +15,7 @@ namespace
 {
 constexpr int MAX_POINTS = 5000;  // the strongest; three boards of the largest size have 1200
 constexpr int MAX_FAINT_POINTS = 2000;
+static_assert(MAX_POINTS <= PointGrid::MAX_POINTS);
 constexpr int PARTS = 8;        // of the points, shared by the threads; the seeds do not depend on how many there are
 constexpr float CLEAR_GAP = 5;  // grey levels between light and dark squares
 constexpr float FAINT_GAP = 3;
