@@ -97,8 +97,7 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
       return false;
     }
     const double reach = profileReach(rings);
-    sampleProfile(bgr, rings.family, reach, *profile);
-    keepDirections(rings.open, *profile);
+    sampleProfile(bgr, rings.family, reach, *profile, rings.open);
     collectRadialEdgels(map, rings.family, reach, .92, edgels);
     keepDirections(rings.open, edgels);
     candidate.boundaries = findBoundaries(*profile, AngularSupport(edgels, reach), rings.radii);
@@ -264,6 +263,10 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
                    RingCandidate& candidate)
 {
+  if (!showsBoundaries(bgr, family, radii))
+  {
+    return false;
+  }
   Rings& rings = candidate.rings;
   rings = {family, radii, 0};
   if (radii.size() < ENOUGH_KNOWN)

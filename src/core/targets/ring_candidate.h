@@ -34,6 +34,9 @@ void weighEvidence(RingCandidate& candidate);
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
 
+/** Whether the colour changes alike around some of a family's circles: a look without edgels, at large ones only. */
+bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii);
+
 /**
  * Grows a seed to a candidate: edgels give the family, the profile then says which boundaries there are.
  *

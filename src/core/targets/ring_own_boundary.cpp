@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ring_boundaries.h"
 #include "ring_candidate.h"
 
 namespace omr
@@ -60,6 +61,30 @@ bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
     best = std::max(best, share(support.at(from + i * tolerance, tolerance)));
   }
   return best >= .55;
+}
+
+bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii)
+{
+  constexpr double SMALL = 30;                      // radius [px]; smaller ones take less time than this look
+  constexpr AngleBins LOOKS = 0x1111111111111111U;  // every fourth direction
+  constexpr double REACH = 1.3;                     // relative to the outermost radius
+  constexpr double MIN_MARGIN = 6;                  // [px]
+  constexpr double LEAST_ALIKE = .25;
+  if (radii.back() < SMALL)
+  {
+    return true;
+  }
+  const double reach = REACH * radii.back() + MIN_MARGIN;
+  RingProfile profile;
+  sampleProfile(bgr, family, reach, profile, LOOKS);
+  const AngularSupport no_edgels({}, reach);
+  std::size_t alike = 0;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    const Boundary boundary = measureBoundary(profile, no_edgels, radii, k);
+    alike += boundary.agreement * boundary.coherence > LEAST_ALIKE ? 1 : 0;
+  }
+  return alike >= (radii.size() < 3 ? 1 : 2);
 }
 
 }  // namespace omr

@@ -170,17 +170,23 @@ std::pair<double, double> plateau(const std::vector<double>& radii, std::size_t 
 }
 }  // namespace
 
-void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile)
+void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile,
+                   AngleBins open)
 {
   profile.step = std::max(FINEST_STEP, max_radius / MAX_SAMPLES);
   profile.count = static_cast<int>(max_radius / profile.step) + 1;
   profile.grey.resize(static_cast<std::size_t>(RingProfile::ANGLES) * profile.count);
   profile.color.resize(profile.grey.size());
   profile.inside.assign(RingProfile::ANGLES, profile.count);
-  profile.open = ~AngleBins{0};
+  profile.open = open;
   Places places;
   for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
   {
+    if ((open >> angle & 1) == 0)
+    {
+      profile.inside[angle] = 0;
+      continue;
+    }
     const auto place = family.isBent() ? placeBentSamples : placeSamples;
     place(family, directions()[angle], profile.step, profile.count, bgr.size(), places);
     cv::Vec3f* grey = &profile.grey[static_cast<std::size_t>(angle) * profile.count];
@@ -198,15 +204,6 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
       grey[i] = cv::Vec3f(values.data());
       color[i] = logarithm(channels);
     }
-  }
-}
-
-void keepDirections(AngleBins open, RingProfile& profile)
-{
-  profile.open = open;
-  for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
-  {
-    profile.inside[angle] = (open >> angle & 1) != 0 ? profile.inside[angle] : 0;
   }
 }
 

@@ -41,11 +41,10 @@ struct RingProfile
  * @param bgr        H x W, CV_8UC3.
  * @param max_radius where the rays end [px].
  * @param profile    receives the result; its memory is reused.
+ * @param open       the directions in which nothing hides the rings; the others are not sampled.
  */
-void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile);
-
-/** Leaves out the directions in which something hides the rings. */
-void keepDirections(AngleBins open, RingProfile& profile);
+void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radius, RingProfile& profile,
+                   AngleBins open = ~AngleBins{0});
 
 /** Directions that must count where something is measured: half of the open ones. */
 int leastDirections(const RingProfile& profile);
