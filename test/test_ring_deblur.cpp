@@ -45,15 +45,16 @@ omr::RingProfile fourRings(double step)
   profile.step = .5;
   profile.count = 80;
   profile.inside.assign(omr::RingProfile::ANGLES, profile.count);
-  for (int sample = 0; sample < omr::RingProfile::ANGLES * profile.count; ++sample)
+  profile.grey.create(omr::RingProfile::ANGLES, profile.count);
+  for (int sample = 0; sample < profile.count; ++sample)
   {
-    const double r = profile.step * (sample % profile.count);
+    const double r = profile.step * sample;
     double value = brightness[0];
     for (std::size_t k = 0; k < radii.size(); ++k)
     {
       value += (brightness[k + 1] - brightness[k]) * .5 * std::erfc((radii[k] - r) / std::sqrt(2.));
     }
-    profile.grey.push_back(cv::Vec3f::all(static_cast<float>(value)));
+    profile.grey.col(sample).setTo(cv::Scalar::all(value));
   }
   return profile;
 }

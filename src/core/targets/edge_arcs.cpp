@@ -21,6 +21,7 @@ constexpr double MIN_TURNING = .2;   // of the last arc of a chain
 constexpr double SETBACK = .15;      // turning back that ends an arc [rad]
 constexpr std::size_t CORNER_REACH = 4;
 constexpr double CORNER = .9;  // turning over twice that many edgels [rad]
+constexpr std::size_t ARC_EDGELS = 16;  // of chains, for each arc found in them: there are 17 to 39
 constexpr int PARTS = 8;       // of the chains, shared by the threads; the arcs do not depend on how many there are
 
 /** Edgels of a chain and the tangents there. */
@@ -179,15 +180,19 @@ std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size&
 {
   const Chains chains = followEdges(edgels, size);
   const std::size_t count = chains.ends.size();
+  const auto end_of = [&](std::size_t before) { return before > 0 ? chains.ends[before - 1] : 0; };  // of the chains
   std::array<std::vector<EdgeArc>, PARTS> parts;
   cv::parallel_for_(cv::Range(0, PARTS), [&](const cv::Range& range) {
     Tangents tangents;
     for (int part = range.start; part < range.end; ++part)
     {
       int chain = 0;
-      for (std::size_t i = count * part / PARTS; i < count * (part + 1) / PARTS; ++i)
+      const std::size_t first = count * part / PARTS;
+      const std::size_t last = count * (part + 1) / PARTS;
+      parts[part].reserve((end_of(last) - end_of(first)) / ARC_EDGELS);
+      for (std::size_t i = first; i < last; ++i)
       {
-        const std::size_t begin = i > 0 ? chains.ends[i - 1] : 0;
+        const std::size_t begin = end_of(i);
         cutChain(tangents.of(&chains.edgels[begin], chains.ends[i] - begin), chain, parts[part]);
       }
     }

@@ -12,7 +12,8 @@ namespace omr
 {
 namespace
 {
-constexpr double MIN_RADIUS = .8;  // of an edgel [px]
+constexpr double MIN_RADIUS = .8;     // of an edgel [px]
+constexpr std::size_t USUAL = 4096;  // radial edgels: of one in twenty families there are more
 
 /** Which edgels are radial: RingFamily::toPlane() and the gradient of the radius, without divisions. */
 struct RadialTest
@@ -165,6 +166,7 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
                          std::vector<RadialEdgel>& edgels)
 {
   edgels.clear();
+  edgels.reserve(USUAL);
   const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
   const cv::Point2d top_left = family.center - half;
   const cv::Point2d bottom_right = family.center + half;

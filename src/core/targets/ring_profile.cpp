@@ -175,8 +175,8 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
 {
   profile.step = std::max(FINEST_STEP, max_radius / MAX_SAMPLES);
   profile.count = static_cast<int>(max_radius / profile.step) + 1;
-  profile.grey.resize(static_cast<std::size_t>(RingProfile::ANGLES) * profile.count);
-  profile.color.resize(profile.grey.size());
+  profile.grey.create(RingProfile::ANGLES, profile.count);
+  profile.color.create(RingProfile::ANGLES, profile.count);
   profile.inside.assign(RingProfile::ANGLES, profile.count);
   profile.open = open;
   Places places;
@@ -189,8 +189,8 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
     }
     const auto place = family.isBent() ? placeBentSamples : placeSamples;
     place(family, directions()[angle], profile.step, profile.count, bgr.size(), places);
-    cv::Vec3f* grey = &profile.grey[static_cast<std::size_t>(angle) * profile.count];
-    LogColor* color = &profile.color[static_cast<std::size_t>(angle) * profile.count];
+    cv::Vec3f* grey = profile.grey[angle];
+    LogColor* color = profile.color[angle];
     for (int i = 0; i < profile.count; ++i)
     {
       if (places.is_inside[i] == 0)

@@ -19,19 +19,19 @@ struct RingProfile
 
   double step = 0;                 ///< between the samples of a ray [px]
   int count = 0;                   ///< samples a ray, from the centre outwards
-  std::vector<cv::Vec3f> grey;     ///< ANGLES x count: B, G, R [0, 255]
-  std::vector<LogColor> color;     ///< the same as logarithms
+  cv::Mat3f grey;                  ///< ANGLES x count: B, G, R [0, 255]
+  cv::Mat3f color;                 ///< the same as logarithms
   std::vector<int> inside;         ///< per angle: samples of the ray that count: inside the image, 0 where hidden
   AngleBins open = ~AngleBins{0};  ///< the directions that are not hidden
 
   const cv::Vec3f* greyRay(int angle) const
   {
-    return &grey[static_cast<std::size_t>(angle) * count];
+    return grey[angle];
   }
 
   const LogColor* ray(int angle) const
   {
-    return &color[static_cast<std::size_t>(angle) * count];
+    return color[angle];
   }
 };
 
