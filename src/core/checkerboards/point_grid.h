@@ -82,8 +82,8 @@ class PointGrid
   static constexpr int MIN_SQUARED = 2 * 2;    // distance [px^2]
   static constexpr int MAX_SQUARED = 40 * 40;  // [px^2]; larger squares are regions
 
-  // A key is the square of a neighbour's distance and its index, so that of those equally far the first one comes first:
-  // a whole number that a float holds, as its minimum and maximum are one instruction on every processor.
+  // A key is the square of a neighbour's distance and its index, so that of those equally far the first one comes
+  // first: a whole number that a float holds, as its minimum and maximum are one instruction on every processor.
   static constexpr float NONE = static_cast<float>(MAX_SQUARED * MAX_POINTS);
   static_assert(MAX_SQUARED * MAX_POINTS <= 1 << 24);
 

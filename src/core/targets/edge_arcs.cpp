@@ -20,9 +20,9 @@ constexpr double ARC_TURNING = .4;   // of a whole arc [rad]
 constexpr double MIN_TURNING = .2;   // of the last arc of a chain
 constexpr double SETBACK = .15;      // turning back that ends an arc [rad]
 constexpr std::size_t CORNER_REACH = 4;
-constexpr double CORNER = .9;  // turning over twice that many edgels [rad]
+constexpr double CORNER = .9;           // turning over twice that many edgels [rad]
 constexpr std::size_t ARC_EDGELS = 16;  // of chains, for each arc found in them: there are 17 to 39
-constexpr int PARTS = 8;       // of the chains, shared by the threads; the arcs do not depend on how many there are
+constexpr int PARTS = 8;  // of the chains, shared by the threads; the arcs do not depend on how many there are
 
 /** Edgels of a chain and the tangents there. */
 struct Links

@@ -12,7 +12,7 @@ namespace omr
 {
 namespace
 {
-constexpr double MIN_RADIUS = .8;     // of an edgel [px]
+constexpr double MIN_RADIUS = .8;    // of an edgel [px]
 constexpr std::size_t USUAL = 4096;  // radial edgels: of one in twenty families there are more
 
 /** Which edgels are radial: RingFamily::toPlane() and the gradient of the radius, without divisions. */
