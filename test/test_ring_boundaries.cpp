@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render_target.h"
+#include "targets/ring_candidate.h"
 
 using omr::Boundary;
 
@@ -208,6 +209,22 @@ TEST(RingBoundaries, edgesOfEitherSignSupportAChangeOfHue)
   {
     EXPECT_GT(omr::share(boundary.supported), .9) << boundary.radius;
   }
+}
+
+TEST(ShowsBoundaries, circlesOfATargetButNotOfTexture)
+{
+  TargetScene scene;
+  scene.colors = "RWPGB";
+  scene.radii = {20, 40, 60, 80, 100};
+  omr::RingFamily family;
+  family.center = projectedCenter(scene);
+  const cv::Mat image = renderTarget(scene);
+  EXPECT_TRUE(omr::showsBoundaries(image, family, scene.radii));
+  EXPECT_TRUE(omr::showsBoundaries(image, family, {59, 79}));  // arcs give them roughly
+  cv::Mat texture(image.size(), CV_8UC3);
+  cv::randu(texture, 0, 256);
+  EXPECT_FALSE(omr::showsBoundaries(texture, family, scene.radii));
+  EXPECT_TRUE(omr::showsBoundaries(texture, family, {10, 20}));  // the look is for large ones
 }
 
 int main(int argc, char** argv)
