@@ -141,6 +141,15 @@ TEST(ColorKey, glossOnOneRingOfSharpOnes)
   EXPECT_EQ("?WGBP", readColorKey(glossy, seen, false));
 }
 
+TEST(ColorKey, greyIsNoGreen)
+{
+  // A black disk below gloss.
+  const std::vector<LinearColor> rings = {LinearColor(.174, .193, .195), LinearColor(.452, .155, .155),
+                                          LinearColor(.104, .257, .152), LinearColor(.095, .111, .29),
+                                          LinearColor(.398, .076, .087)};
+  EXPECT_EQ("?RGBR", readColorKey(rings, LinearColor(.671, .625, .658)));
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

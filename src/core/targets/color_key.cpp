@@ -28,7 +28,8 @@ constexpr double EXPLAINED = .8;            // cost a ring below which no other 
 constexpr double UNEXPLAINED_MEDIAN = 2.5;  // of the rings' costs: no key explains the whole
 constexpr double THICK_HAZE = .4;
 constexpr double UNEXPLAINED_IN_HAZE = 2.5;  // cost of the whole a ring, through a thick haze
-constexpr double UNEXPLAINED = 6;            // cost of a ring that no letter explains
+// Cost of a ring that no letter explains. Grey, which a black disk shows below gloss, costs 5.9 as a green.
+constexpr double UNEXPLAINED = 5;
 
 double squared(double value)
 {
