@@ -29,10 +29,10 @@ constexpr double MOST_UNEXPLAINED = .057;
 constexpr double SAME_BOUNDARY = .5;            // most, of the width of the narrowest ring
 constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
-// Far from an edge compression leaves a faint hue of what is beyond it, which may have an edge of its own: in 4 of 1700
-// targets, turned, enlarged and compressed once more, 3 to 7 px wide. Of the rings of the others, of which none is a
+// Between two hues compression leaves a faint one of both, and this may have an edge of its own: in 5 of 2200 targets,
+// turned, enlarged, noisy or compressed once more, 3 to 7 px wide. Of the rings of the others, of which none is a
 // mixture, a black one between red and blue comes nearest, with .36 of the step.
-constexpr double HALO_WIDTH = .6;  // most, times that of either neighbour
+constexpr double HALO_WIDTH = .6;  // most of what has a letter, times that of either neighbour
 constexpr double HALO_HUE = .15;   // most, from the line between the neighbours' colours, relative to their step
 
 /** Whether there is a boundary, whatever the colours. */
@@ -50,6 +50,11 @@ bool isNarrow(const std::vector<double>& radii, std::size_t k)
   return radii[k] - radii[k - 1] < HALO_WIDTH * std::min(inside, outside);
 }
 
+bool isHue(char letter)
+{
+  return letter == 'R' || letter == 'G' || letter == 'B';
+}
+
 /** Whether a colour, in linear light, lies between two others. */
 bool isMixture(const LinearColor& color, const LinearColor& from, const LinearColor& to)
 {
@@ -58,29 +63,51 @@ bool isMixture(const LinearColor& color, const LinearColor& from, const LinearCo
   return share > 0 && share < 1 && cv::norm(from + share * step - color) < HALO_HUE * cv::norm(step);
 }
 
-/** Removes the boundaries that are no more than the halo of a stronger one. */
-void removeHalos(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
+/** Index of a boundary that is no more than the halo of a stronger one, or the number of boundaries. */
+std::size_t findHalo(const ColorMeasurement& measure, const std::string& key, const std::vector<Boundary>& boundaries,
+                     const std::vector<double>& radii)
 {
+  std::vector<LinearColor> colors;
   for (std::size_t k = 1; k + 1 < radii.size(); ++k)
   {
-    if (!isNarrow(radii, k))
+    // Beside white every dark ring is nearly a mixture of it and black.
+    if (!isHue(key[k - 1]) || !isHue(key[k + 1]) || (key[k] != '?' && !isNarrow(radii, k)))
     {
       continue;
     }
-    const std::vector<LinearColor> colors = measureRingColors(profile, boundaries, radii);
+    colors = colors.empty() ? measure() : colors;
     if (isMixture(colors[k], colors[k - 1], colors[k + 1]))
     {
-      const auto fainter = static_cast<std::ptrdiff_t>(boundaries[k].contrast < boundaries[k - 1].contrast ? k : k - 1);
-      radii.erase(radii.begin() + fainter);
-      boundaries.erase(boundaries.begin() + fainter);
+      return boundaries[k].contrast < boundaries[k - 1].contrast ? k : k - 1;
     }
   }
+  return radii.size();
 }
 
-/** The key's letters, without the boundaries between equal ones. */
+/**
+ * Index of a boundary between rings that read alike, or the number of boundaries.
+ *
+ * @param key receives '?' for rings that read alike but have an evident boundary.
+ */
+std::size_t findMerged(const std::vector<Boundary>& boundaries, std::string& key)
+{
+  for (std::size_t k = 0; k + 1 < key.size(); ++k)
+  {
+    if (key[k] != '?' && key[k] == key[k + 1])
+    {
+      if (!isEvident(boundaries[k]))
+      {
+        return k;
+      }
+      key[k] = key[k + 1] = '?';
+    }
+  }
+  return boundaries.size();
+}
+
+/** The key's letters, without the boundaries between equal ones and without halos. */
 std::string readColors(const RingProfile& profile, std::vector<Boundary>& boundaries, std::vector<double>& radii)
 {
-  removeHalos(profile, boundaries, radii);
   while (true)
   {
     std::vector<ColorMeasurement> ways = {[&] { return measureRingColors(profile, boundaries, radii); }};
@@ -95,15 +122,9 @@ std::string readColors(const RingProfile& profile, std::vector<Boundary>& bounda
     std::transform(boundaries.begin(), boundaries.end(), seen.begin(),
                    [](const Boundary& boundary) { return boundary.shown; });
     std::string key = readColorKey(ways, seen, is_sharp);
-    std::size_t k = 0;
-    for (; k + 1 < key.size() && (key[k] == '?' || key[k] != key[k + 1] || isEvident(boundaries[k])); ++k)
-    {
-      if (key[k] == key[k + 1])
-      {
-        key[k] = key[k + 1] = '?';
-      }
-    }
-    if (k + 1 >= key.size())
+    std::size_t k = findHalo(ways.front(), key, boundaries, radii);
+    k = k < radii.size() ? k : findMerged(boundaries, key);
+    if (k == radii.size())
     {
       return key;
     }
