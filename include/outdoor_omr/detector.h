@@ -25,6 +25,8 @@ class Detector
   /** @param device and errors: see FillPipeline::FillPipeline(). */
   explicit Detector(const std::string& device = "auto");
   ~Detector();
+  Detector(Detector&& other) noexcept;
+  Detector& operator=(Detector&& other) noexcept;
 
   /** In the place of the default network, see omr_train. */
   void setNetwork(const MarkerNetwork& network);

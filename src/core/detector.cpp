@@ -44,6 +44,10 @@ Detector::Detector(const std::string& device)
 
 Detector::~Detector() = default;
 
+Detector::Detector(Detector&& other) noexcept = default;
+
+Detector& Detector::operator=(Detector&& other) noexcept = default;
+
 void Detector::setNetwork(const MarkerNetwork& network)
 {
   network_ = network;

@@ -138,6 +138,7 @@ std::vector<double> scaledBy(double factor, std::vector<double> values)
   std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
   return values;
 }
+
 /** Whether the blur merges the rings, and not one that is none with its neighbours. */
 bool areNarrow(const std::vector<double>& radii)
 {
