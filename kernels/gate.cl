@@ -8,8 +8,14 @@
 #define LEAST_BLOCK_CONTRAST 640
 #define LARGEST_INPUT 6.0f
 
-/** Of four rows the sum of the 24 differences of neighbours in the left or the right half, the smaller one. */
-INLINE ushort contrastOfHalves(global const short* first, int cells_across)
+/** Of a block of a window, from its first one. */
+INLINE int offsetOf(int block, int even)
+{
+  return (2 * (block / 4) + block % 2) * even + block % 4 / 2;
+}
+
+/** Of four rows the sums of the 24 differences of neighbours in the left and in the right half. */
+INLINE int2 contrastOfHalves(global const short* first, int cells_across)
 {
   short8 rows[4];
   for (int y = 0; y < 4; ++y)
@@ -26,21 +32,22 @@ INLINE ushort contrastOfHalves(global const short* first, int cells_across)
   {
     sum += as_ushort8(max(rows[y], rows[y + 1]) - min(rows[y], rows[y + 1]));
   }
-  return min((ushort)(sum.s0 + sum.s1 + sum.s2 + sum.s3), (ushort)(sum.s4 + sum.s5 + sum.s6 + sum.s7));
+  return (int2)((ushort)(sum.s0 + sum.s1 + sum.s2 + sum.s3), (ushort)(sum.s4 + sum.s5 + sum.s6 + sum.s7));
 }
 
-/** Whether a window has the contrast that its features need: half of what passes has not. */
-INLINE bool hasContrast(global const short* first, int cells_across)
+/** Whether a window has the contrast that its features need: much of what passes has not. @param colors of its first
+ * block. */
+INLINE bool hasContrast(global const short* first, int cells_across, global const short* colors, int even)
 {
-  const ushort upper = contrastOfHalves(first, cells_across);
-  const ushort lower = contrastOfHalves(first + (size_t)4 * cells_across, cells_across);
-  return min(upper, lower) >= LEAST_CONTRAST * 24;
-}
-
-/** Of a block of a window, from its first one. */
-INLINE int offsetOf(int block, int even)
-{
-  return (2 * (block / 4) + block % 2) * even + block % 4 / 2;
+  int2 halves[2] = {contrastOfHalves(first, cells_across),
+                    contrastOfHalves(first + (size_t)4 * cells_across, cells_across)};
+  for (int block = 0; block < 16; ++block)
+  {
+    const int color = colors[offsetOf(block, even)];
+    halves[block / 8] += block % 4 < 2 ? (int2)(color, 0) : (int2)(0, color);
+  }
+  const int2 least = min(halves[0], halves[1]);
+  return min(least.x, least.y) >= LEAST_CONTRAST * 24;
 }
 
 /** The same block of WINDOWS windows: they lie side by side. */
@@ -87,7 +94,7 @@ kernel GROUP void gateWindows(global const short* restrict cells, global const s
     {
       global const short* at = start + offsetOf(block, even);
       sum += blocksOf(at);
-      contrast += blocksOf(at + 3 * plane) + blocksOf(at + 4 * plane);
+      contrast += blocksOf(at + 3 * plane) + blocksOf(at + 4 * plane) + blocksOf(at + 5 * plane);
     }
     const Ints mean = sum / 16;
     Ints between = 0;
@@ -140,7 +147,8 @@ kernel GROUP void gateWindows(global const short* restrict cells, global const s
       for (int lane = 0; lane < min(WINDOWS, looked_across - i); ++lane)
       {
         if (passes.of[lane] != 0 &&
-            hasContrast(of_row + (i + lane) * 2 * WINDOW_STRIDE, levels[level].cells_across))
+            hasContrast(of_row + (i + lane) * 2 * WINDOW_STRIDE, levels[level].cells_across,
+                        start + lane + 5 * plane, even))
         {
           likely[atomic_inc(&lists->likely)] = first + 2 * (i + lane);
         }

@@ -9,7 +9,7 @@
 #define OCTAVE 256.0f
 
 /** Features, and a one for the bias. */
-#define FEATURES 148
+#define FEATURES 212
 #define INPUTS (FEATURES + 1)
 
 /** By exchanges without branches: a branch on the values costs more than it saves. */
@@ -39,13 +39,39 @@ INLINE Floats meanDeviation(const Shorts* color)
   return TO_FLOATS(sum) / CELLS;
 }
 
-/** The smallest sum of the 24 differences of neighbours in a quarter of the window; it stays below 2^16. */
-INLINE Ints leastContrast(const Shorts* light)
+/** Of a block the sum, and Haar responses across and down. */
+typedef struct
 {
-  UShorts least = USHRT_MAX;
+  Ints sum, across, down;
+} Block;
+
+INLINE Block blockOf(const Shorts* cells, int row, int col)
+{
+  const Shorts* upper = cells + 2 * row * WINDOW_CELLS + 2 * col;
+  const Shorts* lower = upper + WINDOW_CELLS;
+  const Block block = {TO_INTS(upper[0] + upper[1] + lower[0] + lower[1]),
+                       TO_INTS(magnitude(upper[0] - upper[1]) + magnitude(lower[0] - lower[1])),
+                       TO_INTS(magnitude(upper[0] - lower[0]) + magnitude(upper[1] - lower[1]))};
+  return block;
+}
+
+/** Haar responses of the blocks in colour. */
+INLINE void colorsOf(const Shorts* red, const Shorts* blue, Ints* colors)
+{
+  for (int i = 0; i < 16; ++i)
+  {
+    const Block of_red = blockOf(red, i / 4, i % 4);
+    const Block of_blue = blockOf(blue, i / 4, i % 4);
+    colors[i] = of_red.across + of_red.down + of_blue.across + of_blue.down;
+  }
+}
+
+/** The sums of the 24 differences of neighbours in the quarters of the window; each stays below 2^16. */
+INLINE void contrastOfQuarters(const Shorts* plane, Ints* quarters)
+{
   for (int quarter = 0; quarter < 4; ++quarter)
   {
-    const Shorts* first = light + quarter / 2 * 4 * WINDOW_CELLS + quarter % 2 * 4;
+    const Shorts* first = plane + quarter / 2 * 4 * WINDOW_CELLS + quarter % 2 * 4;
     UShorts contrast = 0;
     for (int i = 0; i < 4; ++i)
     {
@@ -56,9 +82,45 @@ INLINE Ints leastContrast(const Shorts* light)
         contrast += magnitude(row[1] - row[0]) + magnitude(column[WINDOW_CELLS] - column[0]);
       }
     }
-    least = min(least, contrast);
+    quarters[quarter] = TO_INTS(contrast);
   }
-  return TO_INTS(least);
+}
+
+/** The contrast of the quarter that has least, in brightness and in the colours of its blocks. */
+INLINE Ints leastContrast(const Ints* quarters, const Ints* colors)
+{
+  Ints least = INT_MAX;
+  for (int quarter = 0; quarter < 4; ++quarter)
+  {
+    const Ints* upper = colors + quarter / 2 * 8 + quarter % 2 * 2;
+    least = min(least, quarters[quarter] + upper[0] + upper[1] + upper[4] + upper[5]);
+  }
+  return least;
+}
+
+INLINE Ints contrastOf(const Shorts* plane)
+{
+  Ints quarters[4];
+  contrastOfQuarters(plane, quarters);
+  return quarters[0] + quarters[1] + quarters[2] + quarters[3];
+}
+
+/** Puts the colour with the most contrast in the place of brightness where that has less. */
+INLINE void chooseMainPlane(const Ints* quarters, const Shorts* red, const Shorts* blue, Shorts* light)
+{
+  const Ints of_light = quarters[0] + quarters[1] + quarters[2] + quarters[3];
+  const Ints of_red = contrastOf(red);
+  const Ints of_blue = contrastOf(blue);
+  const Ints colored = max(of_red, of_blue) > of_light;
+  if (!ANY(colored))
+  {
+    return;
+  }
+  for (int i = 0; i < CELLS; ++i)
+  {
+    const Ints color = of_red >= of_blue ? TO_INTS(red[i]) : TO_INTS(blue[i]);
+    light[i] = TO_SHORTS(colored ? color : TO_INTS(light[i]));
+  }
 }
 
 /** What is looked up, in one buffer: shifts by length, then crossings of four shifts. */
@@ -80,34 +142,27 @@ INLINE Floats largestCrossing(const Floats* differences, global const uchar* tab
   return largest;
 }
 
-/** Of a block the sum, and Haar responses across and down. */
-typedef struct
-{
-  Ints sum, across, down;
-} Block;
-
-INLINE Block blockOf(const Shorts* cells, int row, int col)
-{
-  const Shorts* upper = cells + 2 * row * WINDOW_CELLS + 2 * col;
-  const Shorts* lower = upper + WINDOW_CELLS;
-  const Block block = {TO_INTS(upper[0] + upper[1] + lower[0] + lower[1]),
-                       TO_INTS(magnitude(upper[0] - upper[1]) + magnitude(lower[0] - lower[1])),
-                       TO_INTS(magnitude(upper[0] - lower[0]) + magnitude(upper[1] - lower[1]))};
-  return block;
-}
-
 /**
  * The features of windows. @return which of them have contrast; of the others they mean nothing.
  */
 INLINE Ints haarFeatures(const Places* places, global const uchar* tables, int crossings, Floats* features)
 {
   Shorts light[CELLS];
+  Shorts red[CELLS];
+  Shorts blue[CELLS];
+  Ints colors[16];
+  Ints quarters[4];
   loadCells(places, 0, light);
-  const Ints has_contrast = leastContrast(light) >= LEAST_CONTRAST * 24;
+  loadCells(places, 1, red);
+  loadCells(places, 2, blue);
+  colorsOf(red, blue, colors);
+  contrastOfQuarters(light, quarters);
+  const Ints has_contrast = leastContrast(quarters, colors) >= LEAST_CONTRAST * 24;
   if (!ANY(has_contrast))
   {
     return has_contrast;
   }
+  chooseMainPlane(quarters, red, blue, light);
   const Ints mean = total(light) / CELLS;
   Floats differences[SHIFTS];
   Floats contrast = 0;
@@ -154,24 +209,22 @@ INLINE Ints haarFeatures(const Places* places, global const uchar* tables, int c
     *next++ = same[i] * relative;
     *next++ = negative[i] * relative;
   }
-  Shorts red[CELLS];
-  Shorts blue[CELLS];
-  loadCells(places, 1, red);
-  loadCells(places, 2, blue);
   *next++ = meanDeviation(red) * relative;
   *next++ = meanDeviation(blue) * relative;
 
   for (int i = 0; i < 16; ++i)
   {
     const Block of_light = blockOf(light, i / 4, i % 4);
-    const Block of_red = blockOf(red, i / 4, i % 4);
-    const Block of_blue = blockOf(blue, i / 4, i % 4);
     *next++ = TO_FLOATS(of_light.sum - 4 * mean) * (relative / 4);
-    *next++ = TO_FLOATS(of_red.sum) / (4 * OCTAVE);
-    *next++ = TO_FLOATS(of_blue.sum) / (4 * OCTAVE);
+    *next++ = TO_FLOATS(blockOf(red, i / 4, i % 4).sum) / (4 * OCTAVE);
+    *next++ = TO_FLOATS(blockOf(blue, i / 4, i % 4).sum) / (4 * OCTAVE);
     *next++ = TO_FLOATS(of_light.across) * (relative / 2) - 1;
     *next++ = TO_FLOATS(of_light.down) * (relative / 2) - 1;
-    *next++ = TO_FLOATS(of_red.across + of_red.down + of_blue.across + of_blue.down) * (relative / 2);
+    *next++ = TO_FLOATS(colors[i]) * (relative / 2);
+  }
+  for (int i = 0; i < CELLS; ++i)
+  {
+    *next++ = TO_FLOATS(TO_INTS(light[i]) - mean) * relative;
   }
   *next = 1;
   return has_contrast;

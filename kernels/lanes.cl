@@ -16,6 +16,7 @@ typedef float16 Floats;
 #define AS_FLOATS as_float16
 #define AS_USHORTS as_ushort16
 #define TO_INTS convert_int16
+#define TO_SHORTS convert_short16
 #define TO_FLOATS convert_float16
 #define LOAD(from) vload16(0, from)
 #define ANY(condition) any(condition)
@@ -29,6 +30,7 @@ typedef float Floats;
 #define AS_FLOATS as_float
 #define AS_USHORTS as_ushort
 #define TO_INTS convert_int
+#define TO_SHORTS convert_short
 #define TO_FLOATS convert_float
 #define LOAD(from) (*(from))
 #define ANY(condition) ((condition) != 0)

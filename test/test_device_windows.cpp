@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -96,6 +97,26 @@ TEST_P(DeviceWindowsTest, squaresThatCoincideWithCellsHaveAScore)
   }
   expectSameScores(image, anyNetwork(8));
   EXPECT_NE(-1, scores(image, anyNetwork(8)).front()[0]);
+}
+
+TEST_P(DeviceWindowsTest, windowsOfOneBrightnessAreScoredByTheirColors)
+{
+  cv::RNG random(9);
+  cv::Mat image(96, 132, CV_8UC3);
+  for (int y = 0; y < image.rows; y += 6)
+  {
+    for (int x = 0; x < image.cols; x += 6)
+    {
+      const int hue = random.uniform(0, 3);
+      image(cv::Rect(x, y, 6, 6)) = hue == 0   ? cv::Scalar(40, 80, 200)
+                                    : hue == 1 ? cv::Scalar(80, 200, 40)
+                                               : cv::Scalar(200, 40, 80);
+    }
+  }
+  expectSameScores(image, anyNetwork(8));
+  const std::vector<MarkerScores> all = scores(image, anyNetwork(8));
+  const auto scored = std::count_if(all.begin(), all.end(), [](const MarkerScores& window) { return window[0] != -1; });
+  EXPECT_GT(scored, 20);
 }
 
 TEST_P(DeviceWindowsTest, aPlainWindowHasNoScore)

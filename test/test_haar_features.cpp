@@ -106,6 +106,29 @@ TEST(HaarFeatures, aWindowWithAPlainQuarterHasNone)
   EXPECT_EQ(std::vector<float>(HAAR_FEATURES, 7), features);
 }
 
+TEST(HaarFeatures, squaresThatDifferInColorAloneAreLikeOthers)
+{
+  // The squares do not coincide with blocks, in which colour is compared.
+  const auto squares_of = [](const cv::Vec3b& first, const cv::Vec3b& second) {
+    cv::Mat image(SIDE, SIDE, CV_8UC3);
+    for (int i = 0; i < SIDE * SIDE; ++i)
+    {
+      image.at<cv::Vec3b>(i / SIDE, i % SIDE) = (i / SIDE + 2) / 4 % 2 == (i % SIDE + 2) / 4 % 2 ? first : second;
+    }
+    return featuresOf(image);
+  };
+  const std::vector<float> colored = squares_of({40, 80, 200}, {40, 200, 80});
+  const std::vector<float> gray = squares_of({200, 200, 200}, {60, 60, 60});
+  for (int i = 0; i < HAAR_FEATURES; ++i)
+  {
+    EXPECT_TRUE(std::isfinite(colored[i])) << "feature " << i;
+  }
+  for (int i = 0; i <= CROSSING; ++i)
+  {
+    EXPECT_NEAR(gray[i], colored[i], .01) << "feature " << i;
+  }
+}
+
 TEST(HaarFeatures, squaresOfAnyTurnCrossMoreThanClutter)
 {
   for (const double size : {3.2, 4., 5.})
@@ -167,7 +190,7 @@ TEST(HaarGate, itsInputsAreTheBlocksRelativeToTheContrast)
   double ratio = 0;  // of the two measures of contrast; the same for all inputs
   for (int block = 0; block < omr::HAAR_BLOCKS; ++block)
   {
-    const float* feature = features.data() + omr::HAAR_FEATURES - 6 * (omr::HAAR_BLOCKS - block);
+    const float* feature = features.data() + omr::FIRST_BLOCK_FEATURE + 6 * block;
     const double across = (feature[3] + 1) * 2 * contrast;
     if (across > 100)
     {
@@ -187,7 +210,7 @@ TEST(HaarGate, whatHasFeaturesHasInputs)
   for (int seed = 1; seed <= 500; ++seed)
   {
     cv::Mat image = clutter(seed);
-    image.convertTo(image, -1, .1 + .0016 * seed, 40);  // about the least contrast
+    image.convertTo(image, -1, .02 + .0008 * seed, 40);  // about the least contrast
     cv::Mat integral;
     cv::integral(image, integral, CV_32S);
     const cv::Mat cells = omr::haarCells(integral, 0);

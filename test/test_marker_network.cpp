@@ -91,7 +91,7 @@ std::vector<float> windowWithBlock(int block, float light, cv::RNG& random)
   {
     feature = static_cast<float>(random.gaussian(1));
   }
-  features[HAAR_FEATURES - omr::BLOCK_FEATURES * (omr::HAAR_BLOCKS - block)] = light;
+  features[omr::FIRST_BLOCK_FEATURE + omr::BLOCK_FEATURES * block] = light;
   return features;
 }
 
@@ -183,7 +183,7 @@ TEST(MarkerNetwork, learnsAWindowTurnedMirroredAndInverted)
 {
   cv::RNG random(3);
   omr::WindowSet windows;
-  for (int i = 0; i < 3000; ++i)
+  for (int i = 0; i < 6000; ++i)
   {
     const bool marker = i % 2 == 0;
     const std::vector<float> window = windowWithBlock(marker ? 1 : 5, 8, random);

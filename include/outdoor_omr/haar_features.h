@@ -24,7 +24,9 @@ constexpr int HAAR_SHIFTS =
     40;  ///< ways from a cell to another one: dx in 0 .. 4, dy in -4 .. 4, one of each two opposite
 constexpr int HAAR_BLOCKS = 16;  ///< blocks of 2 x 2 cells
 constexpr int BLOCK_FEATURES = 6;
-constexpr int HAAR_FEATURES = HAAR_SHIFTS + HAAR_BLOCKS * BLOCK_FEATURES + 12;
+constexpr int FIRST_BLOCK_FEATURE = HAAR_SHIFTS + 12;
+constexpr int FIRST_CELL_FEATURE = FIRST_BLOCK_FEATURE + HAAR_BLOCKS * BLOCK_FEATURES;
+constexpr int HAAR_FEATURES = FIRST_CELL_FEATURE + WINDOW_CELLS * WINDOW_CELLS;
 
 /** Side of a cell [px]. */
 constexpr int cellSize(int level)
@@ -68,21 +70,25 @@ const HaarTables& haarTables();
 cv::Mat haarCells(const cv::Mat& integral, int level);
 
 /**
- * The features of one window. All are relative to the window's contrast, the mean of the 40 differences, unless noted:
- *   - 40 mean differences |brightness of a cell - that of the cell at a shift|, ascending within a band of shifts, so
+ * The features of one window. Its main plane is that of the three in which neighbours differ most: brightness, but of
+ * pale rings a colour difference. All are relative to the window's contrast, the mean of the 40 differences, unless
+ * noted:
+ *   - 40 mean differences |main plane at a cell - at the cell at a shift|, ascending within a band of shifts, so
  *     that a turn of the marker drops out: squares and rings repeat, clutter does not;
  *   - how much two shifts that cross differ from their sum and difference: 1 for a checkerboard of any turn and tilt;
- *   - the contrast itself [octaves]; the first two moments of the brightness;
+ *   - the contrast itself [octaves]; the first two moments of the main plane;
  *   - three of the smallest mean differences from the window turned by 180 degrees about one of 25 points near its
  *     centre, and three from the negative of it: rings have the one symmetry, checkerboards have both;
  *   - of either colour difference the mean deviation;
- *   - of each block the mean brightness, the two colour differences [octaves], and the Haar responses across, down, and
- *     in colour.
+ *   - of each block the mean of the main plane, the two colour differences [octaves], and the Haar responses across,
+ *     down, and in colour;
+ *   - of each cell the main plane, from its mean.
  *
  * @param cells    as haarCells() gives them.
  * @param first    the window's first cell.
  * @param features receives HAAR_FEATURES values of the order of 1.
- * @return         whether there is enough contrast for a marker in all four quarters; if not, features is not written.
+ * @return         whether there is enough contrast for a marker in all four quarters, in brightness and colour; if not,
+ * features is not written.
  */
 bool haarFeatures(const cv::Mat& cells, const cv::Point& first, float* features);
 

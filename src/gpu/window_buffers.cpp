@@ -14,7 +14,7 @@ constexpr std::size_t GATE_UNITS = MAX_GATE_UNITS;
 constexpr std::size_t BLOCK_PLANES = 6;
 constexpr std::size_t READ_BEYOND = 32;  // blocks and cells
 static_assert(GATE_UNITS == 16 && GATE_INPUTS == 96, "kernels/gate.cl has as many");
-static_assert(HAAR_FEATURES == 148, "kernels/haar.cl has the same number");
+static_assert(HAAR_FEATURES == 212, "kernels/haar.cl has the same number");
 static_assert(HAAR_SHIFTS == 40, "kernels/haar.cl has the same number");
 }  // namespace
 

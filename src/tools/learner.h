@@ -21,28 +21,35 @@ struct Descent
   void step(float size, int steps);
 };
 
-/** A network of one hidden layer while it learns, by the gradient of the cross-entropy. Inputs have about unit
- * variance.
- */
+/** Windows that are learned from together. */
+struct Batch
+{
+  cv::Mat windows;  ///< N x (inputs + 1), CV_32FC1: inputs of about unit variance, and a one for the bias
+  std::vector<WindowLabel> labels;
+  std::vector<float> weights;  ///< of what they add to the gradient
+};
+
+/** A network of one hidden layer while it learns, by the gradient of the cross-entropy. */
 class Learner
 {
  public:
   Learner(int inputs, int hidden, cv::RNG& random);
 
-  /** Adds to the gradient. @param window its inputs, and a one for the bias. @param weight of what it adds. */
-  void learn(const float* window, WindowLabel label, float weight);
-
-  /** Moves all weights against the gradient, about by `size` each, and begins a new one. */
-  void step(double size);
+  /** Moves all weights against the gradient of a batch, about by `size` each; the same on any number of threads. */
+  void learn(const Batch& batch, double size);
 
   /** The network for inputs as they are. @param means, deviations of each input, by which it was scaled. */
   FeedForward network(const std::vector<float>& means, const std::vector<float>& deviations) const;
 
  private:
+  float weight(int unit, int input) const;
+  void propagateErrors(const Batch& batch);
+
   int inputs_, hidden_;
-  Descent first_;   ///< of each input, and then the bias: a weight for each hidden unit
-  Descent second_;  ///< of each kind: a weight for each hidden unit, and the bias
-  std::vector<float> active_, derivatives_;
+  std::vector<Descent> first_;  ///< of some units each: of every input, and then the bias, a weight a unit
+  Descent second_;              ///< of each kind: a weight for each hidden unit, and the bias
+  cv::Mat active_;              ///< of each window of the batch its units
+  cv::Mat derivatives_;
   int steps_ = 0;
 };
 

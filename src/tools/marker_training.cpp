@@ -1,6 +1,7 @@
 #include "marker_training.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "network_training.h"
@@ -14,6 +15,12 @@ namespace
 constexpr double CHECKERBOARD_SHARE = .3;
 constexpr double CLUTTER_SHARE = .006;
 constexpr float HARD_SCORE = -.8F;
+
+/** Of the clutter that is looked at for what is hard: windows overlap, and features take most of the time. */
+constexpr double HARD_SHARE = .5;
+
+/** Passes of the rounds that only serve to find hard clutter, of those of the last one. */
+constexpr double EARLY_EPOCHS = .34;
 
 /** Share of the windows with a marker that the gate loses where hard clutter is looked for. */
 constexpr double LOST_IN_TRAINING = .03;
@@ -72,7 +79,7 @@ MarkerNetwork trainMarkerNetwork(const TrainingPictures& pictures, const Trainin
   MarkerNetwork network;
   FeedForward& gate = network.gate;
   std::vector<float> weights(windows.labels.size(), 1);
-  gate = trainNetwork({windows.gate, windows.labels, weights}, options.gate, options.epochs, false);
+  gate = trainNetwork({windows.gate, windows.labels, weights}, options.gate, options.epochs, true);
   gate.thresholds = gateThresholds(gate, windows, LOST_IN_TRAINING);
   for (std::size_t i = 0; i < weights.size(); ++i)
   {
@@ -84,14 +91,19 @@ MarkerNetwork trainMarkerNetwork(const TrainingPictures& pictures, const Trainin
       const MarkerScores scores = markerScores(network, features);
       return std::max(scores[0], scores[1]) > HARD_SCORE;
     };
+    const TrainingPictures::Drawn half = [](cv::RNG& random, WindowLabel /*label*/) {
+      return random.uniform(0., 1.) < HARD_SHARE;
+    };
     if (round > 0)
     {
-      windows.append(pictures.windows(false, seed + 1 + round, gate, TrainingPictures::all, hard));
-      weights.resize(windows.labels.size(), 1);
+      windows.append(pictures.windows(false, seed + 1 + round, gate, half, hard));
+      weights.resize(windows.labels.size(), static_cast<float>(1 / HARD_SHARE));
       printCounts("with hard clutter", windows);
     }
+    const bool last = round + 1 == options.rounds;
+    const int epochs = last ? options.epochs : static_cast<int>(std::ceil(EARLY_EPOCHS * options.epochs));
     static_cast<FeedForward&>(network) =
-        trainNetwork({windows.features, windows.labels, weights}, options.hidden, options.epochs, true);
+        trainNetwork({windows.features, windows.labels, weights}, options.hidden, epochs, true);
   }
   return network;
 }

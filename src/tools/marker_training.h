@@ -8,10 +8,10 @@ namespace omr
 {
 struct TrainingOptions
 {
-  int hidden = 64;
-  int gate = 16;  ///< units of the gate
-  int epochs = 12;
-  int rounds = 3;  ///< trainings; after each, hard clutter is added
+  int hidden = 128;
+  int gate = 16;    ///< units of the gate
+  int epochs = 12;  ///< passes over the windows in the last training; a third in those before
+  int rounds = 2;   ///< trainings; after each, hard clutter is added
   unsigned seed = 1;
 };
 

@@ -36,33 +36,61 @@ struct Scales
   }
 };
 
-/**
- * A window as it would be had the camera been turned by quarters, the picture been mirrored, or dark and light been
- * exchanged; what does not belong to a block stays the same. One of the 16 at random.
- */
-void vary(const float* window, int inputs, cv::RNG& random, float* varied)
+/** One of the ways in which a window may be turned by quarters, mirrored, and have dark and light exchanged. */
+struct Variation
 {
-  const unsigned way = random.next();
-  const bool inverted = (way & 8U) != 0;
-  const bool transposed = (way & 4U) != 0;
-  const int others = inputs - HAAR_BLOCKS * BLOCK_FEATURES;
-  std::copy(window, window + others, varied);
+  bool down, right, transposed, inverted;
+
+  explicit Variation(cv::RNG& random)
+  {
+    const unsigned way = random.next();
+    down = (way & 1U) != 0;
+    right = (way & 2U) != 0;
+    transposed = (way & 4U) != 0;
+    inverted = (way & 8U) != 0;
+  }
+
+  /** Where in a grid of side x side the place i comes from. */
+  int source(int i, int side) const
+  {
+    const int row = down ? side - 1 - i / side : i / side;
+    const int col = right ? side - 1 - i % side : i % side;
+    return transposed ? side * col + row : side * row + col;
+  }
+};
+
+/** The blocks of gateInputs() or haarFeatures(). */
+void varyBlocks(const float* blocks, const Variation& variation, float* varied)
+{
   for (int i = 0; i < HAAR_BLOCKS; ++i)
   {
-    int row = (way & 1U) != 0 ? 3 - i / 4 : i / 4;
-    int col = (way & 2U) != 0 ? 3 - i % 4 : i % 4;
-    if (transposed)
-    {
-      std::swap(row, col);
-    }
-    const float* block = window + others + BLOCK_FEATURES * (4 * row + col);
-    float* to = varied + others + BLOCK_FEATURES * i;
+    const float* block = blocks + static_cast<std::ptrdiff_t>(BLOCK_FEATURES) * variation.source(i, WINDOW_CELLS / 2);
+    float* to = varied + static_cast<std::ptrdiff_t>(BLOCK_FEATURES) * i;
     std::copy(block, block + BLOCK_FEATURES, to);
-    to[0] = inverted ? -to[0] : to[0];
-    if (transposed)
+    to[0] = variation.inverted ? -to[0] : to[0];
+    if (variation.transposed)
     {
       std::swap(to[3], to[4]);
     }
+  }
+}
+
+/** A window as it would be had the camera been turned, the picture been mirrored, or dark and light been exchanged.
+ * What belongs to no block or cell stays the same. @param inputs HAAR_FEATURES, or else GATE_INPUTS. */
+void vary(const float* window, int inputs, cv::RNG& random, float* varied)
+{
+  const Variation variation(random);
+  if (inputs != HAAR_FEATURES)
+  {
+    varyBlocks(window, variation, varied);
+    return;
+  }
+  std::copy(window, window + FIRST_BLOCK_FEATURE, varied);
+  varyBlocks(window + FIRST_BLOCK_FEATURE, variation, varied + FIRST_BLOCK_FEATURE);
+  for (int i = 0; i < WINDOW_CELLS * WINDOW_CELLS; ++i)
+  {
+    const float cell = window[FIRST_CELL_FEATURE + variation.source(i, WINDOW_CELLS)];
+    varied[FIRST_CELL_FEATURE + i] = variation.inverted ? -cell : cell;
   }
 }
 
@@ -109,27 +137,30 @@ FeedForward trainNetwork(const Examples& examples, int hidden, int epochs, bool 
   Learner learner(inputs.cols, hidden, random);
   std::vector<int> order(inputs.rows);
   std::iota(order.begin(), order.end(), 0);
-  std::vector<float> window(inputs.cols + 1, 1);  // the bias at the end
   const double steps = static_cast<double>(epochs) * inputs.rows;
   double done = 0;
   for (int epoch = 0; epoch < epochs; ++epoch)
   {
     cv::randShuffle(order, 1, &random);
-    for (int i = 0; i < inputs.rows; ++i)
+    for (int first = 0; first < inputs.rows; first += BATCH)
     {
-      const int example = order[i];
-      const auto* row = inputs.ptr<float>(example);
-      varied ? vary(row, inputs.cols, random, window.data()) : void(std::copy(row, row + inputs.cols, window.data()));
-      for (int k = 0; k < inputs.cols; ++k)
+      const int count = std::min(BATCH, inputs.rows - first);
+      Batch batch = {cv::Mat(count, inputs.cols + 1, CV_32FC1, cv::Scalar(1)), {}, {}};  // the bias at the end
+      for (int i = 0; i < count; ++i)
       {
-        window[k] = (window[k] - scales.mean[k]) / scales.deviation[k];
+        const int example = order[first + i];
+        const auto* row = inputs.ptr<float>(example);
+        auto* window = batch.windows.ptr<float>(i);
+        varied ? vary(row, inputs.cols, random, window) : void(std::copy(row, row + inputs.cols, window));
+        for (int k = 0; k < inputs.cols; ++k)
+        {
+          window[k] = (window[k] - scales.mean[k]) / scales.deviation[k];
+        }
+        batch.labels.push_back(examples.labels[example]);
+        batch.weights.push_back(examples.weights[example] / BATCH);
       }
-      learner.learn(window.data(), examples.labels[example], examples.weights[example] / BATCH);
-      ++done;
-      if ((i + 1) % BATCH == 0 || i + 1 == inputs.rows)
-      {
-        learner.step(FIRST_STEP * .5 * (1 + std::cos(CV_PI * done / steps)));
-      }
+      done += count;
+      learner.learn(batch, FIRST_STEP * .5 * (1 + std::cos(CV_PI * done / steps)));
     }
   }
   return learner.network(scales.mean, scales.deviation);

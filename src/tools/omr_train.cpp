@@ -24,7 +24,7 @@ struct Options : omr::TrainingOptions
   std::string network;
   int scenes = 3000;
   int held_out = 4;
-  double lost = .05;
+  double lost = .03;
   double precision = .9995;
   double enlarged = .5;
   double shown = .027;
@@ -188,7 +188,7 @@ void declare(CLI::App& app, Options& options)
   app.add_option("--lost", options.lost, "share of the held-out windows with a marker that the gate may lose")
       ->capture_default_str()
       ->check(CLI::Range(0., 1.));
-  app.add_option("--epochs", options.epochs, "passes over the windows")
+  app.add_option("--epochs", options.epochs, "passes over the windows in the last round; a third in those before")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_option("--rounds", options.rounds, "trainings; after each, hard clutter is added")

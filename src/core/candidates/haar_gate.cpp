@@ -10,8 +10,9 @@ namespace
 {
 /**
  * Least contrast of a window, the sum below. It rejects no window that has features: those need 4 * 480 from the
- * differences of neighbours in the quarters, a sum that is three times this one at most. (Neighbours of two blocks
- * differ by no more than each differs from the mean of its block, plus what the means differ.)
+ * differences of neighbours in the quarters, in colour of those in a block, a sum that is three times this one at most.
+ * (Neighbours of two blocks differ by no more than each differs from the mean of its block, plus what the means
+ * differ.)
  */
 constexpr int LEAST_BLOCK_CONTRAST = 640;
 
@@ -49,7 +50,7 @@ bool gateInputs(const cv::Mat& cells, const cv::Point& first, float* inputs)
   int between = 0;
   for (const ColorBlock& block : blocks)
   {
-    within += block.light.across + block.light.down;
+    within += block.light.across + block.light.down + block.color;
     between += std::abs(block.light.sum - mean);
   }
   const int contrast = within + between / 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "default_marker_network.h"
 #include "outdoor_omr/haar_features.h"
@@ -18,12 +19,21 @@ constexpr int MAX_HIDDEN = 256;
 template <typename Input>
 double weightedSum(const float* weights, const Input* inputs, int count)
 {
-  double sum = weights[0];
-  for (int i = 0; i < count; ++i)
+  constexpr int LANES = 8;
+  std::array<double, LANES> sums = {weights[0]};
+  int i = 0;
+  for (; i + LANES <= count; i += LANES)
   {
-    sum += static_cast<double>(weights[i + 1]) * inputs[i];
+    for (int lane = 0; lane < LANES; ++lane)
+    {
+      sums[lane] += static_cast<double>(weights[i + lane + 1]) * inputs[i + lane];
+    }
   }
-  return sum;
+  for (; i < count; ++i)
+  {
+    sums[0] += static_cast<double>(weights[i + 1]) * inputs[i];
+  }
+  return std::accumulate(sums.begin(), sums.end(), 0.);
 }
 
 void appendUnits(const YamlFile& layer, const std::string& expected, std::size_t units, std::size_t inputs,
