@@ -220,7 +220,7 @@ TEST(ShowsBoundaries, circlesOfATargetButNotOfTexture)
   family.center = projectedCenter(scene);
   const cv::Mat image = renderTarget(scene);
   EXPECT_TRUE(omr::showsBoundaries(image, family, scene.radii));
-  EXPECT_TRUE(omr::showsBoundaries(image, family, {59, 79}));  // arcs give them roughly
+  EXPECT_TRUE(omr::showsBoundaries(image, family, {58, 77}));  // arcs give them roughly
   cv::Mat texture(image.size(), CV_8UC3);
   cv::randu(texture, 0, 256);
   EXPECT_FALSE(omr::showsBoundaries(texture, family, scene.radii));
