@@ -69,8 +69,8 @@ bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::ve
   constexpr AngleBins LOOKS = 0x1111111111111111U;  // every fourth direction
   constexpr double REACH = 1.3;                     // relative to the outermost radius
   constexpr double MIN_MARGIN = 6;                  // [px]
-  // 719 targets, 304 of them in warped pictures, have .63 and more; of 205 families of this size that become none 54 end
-  // here, with 315 of 800 ms.
+  // 719 targets, 304 of them in warped pictures, have .63 and more; of 205 families of this size that become none 54
+  // end here, with 315 of 800 ms.
   constexpr double LEAST_COHERENCE = .5;
   if (radii.back() < SMALL)
   {
