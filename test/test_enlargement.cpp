@@ -66,6 +66,20 @@ TEST(Enlargement, whatIsReadComesBackInPixelsOfTheImage)
   EXPECT_EQ(1U, detector.sizes.size());
 }
 
+TEST(Enlargement, whatFillsLittleOfTheCandidateIsNoneOfIt)
+{
+  Detector detector;
+  detector.answered = {160, 160};
+  for (const float diameter : {20.F, 28.F})  // of a box of 80 px, enlarged
+  {
+    Markers markers;
+    markers.candidates = {candidateAt({100, 60, 40, 40})};
+    detector.found.targets = {targetAt({80, 80}, diameter)};
+    omr::readEnlarged(IMAGE, 5, std::ref(detector), markers);
+    EXPECT_EQ(diameter > 24 ? 1U : 0U, markers.targets.size()) << diameter;
+  }
+}
+
 TEST(Enlargement, threeTimesWhereTwiceShowsNothing)
 {
   Markers markers;

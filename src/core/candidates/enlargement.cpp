@@ -13,6 +13,10 @@ constexpr int MAX_CELL = 4;
 /** Pixels of an enlargement at most: a quarter of a full-HD frame bounds the time. */
 constexpr double MAX_PIXELS = 518400;
 
+/** Least share of a candidate's box that is filled by what is read there. The windows of a target lie about its centre,
+ * in a box of 11.6 cells at most, and two rings of 0.9 cells, the least that a target has, fill a tenth of it. */
+constexpr double FILLED = .1;
+
 /** The box and half its size on each side, within the image. */
 cv::Rect surroundings(const cv::Rect& box, const cv::Size& image)
 {
@@ -75,7 +79,7 @@ bool overlaps(const cv::Rect& box, const Markers& markers)
          std::any_of(markers.targets.begin(), markers.targets.end(), hit);
 }
 
-/** Adds what shows the candidate and lies over no marker that is known. @return whether there was any. */
+/** Adds what suits the candidate and lies over no marker that is known. @return whether there was any. */
 template <typename Marker>
 bool addFound(std::vector<Marker>& found, const Candidate& candidate, const Back& back, const Markers& known,
               std::vector<Marker>& markers)
@@ -85,7 +89,7 @@ bool addFound(std::vector<Marker>& found, const Candidate& candidate, const Back
   {
     moveBack(marker, back);
     const cv::Rect box = boxOf(marker);
-    if ((box & candidate.box).area() > 0 && !overlaps(box, known))
+    if ((box & candidate.box).area() >= FILLED * candidate.box.area() && !overlaps(box, known))
     {
       markers.push_back(std::move(marker));
       any = true;
