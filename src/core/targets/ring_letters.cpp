@@ -26,6 +26,7 @@ constexpr double EVIDENT_SHARE = .5;
 constexpr double NARROW = 5;       // [px]
 constexpr double NARROW_MEAN = 7;  // width of all rings of a target with narrow ones [px]
 constexpr double MOST_UNEXPLAINED = .057;
+constexpr double ROUND = .7;                    // least share of the directions: sheets have .52 to .62
 constexpr double SAME_BOUNDARY = .5;            // most, of the width of the narrowest ring
 constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
@@ -145,6 +146,12 @@ bool areNarrow(const std::vector<double>& radii)
   return narrowestRing(radii) < NARROW && radii.back() < NARROW_MEAN * static_cast<double>(radii.size());
 }
 
+/** Whether it shows all around; the outline of a small square sheet comes near to a circle on its four sides. */
+bool isRound(const Boundary& boundary)
+{
+  return share(boundary.agreeing & boundary.supported) > ROUND;
+}
+
 /** Gives the candidate other rings, with what is known of those of their boundaries that were found. */
 void takeRings(std::vector<double> radii, RingCandidate& candidate)
 {
@@ -172,11 +179,18 @@ void takeRings(std::vector<double> radii, RingCandidate& candidate)
 std::string readLetters(RingCandidate& candidate)
 {
   std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
-  NarrowRings rings;
-  if (areNarrow(candidate.rings.radii) && readNarrowRings(*candidate.profile, radii, candidate.profile_scale, rings))
+  if (areNarrow(candidate.rings.radii))
   {
-    takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
-    return rings.letters;
+    NarrowRings rings;
+    const auto read = [&](const std::vector<double>& found) {
+      return readNarrowRings(*candidate.profile, found, candidate.profile_scale, rings);
+    };
+    const bool is_sheet = radii.size() > 2 && !isRound(candidate.boundaries.back());
+    if ((is_sheet && read({radii.begin(), radii.end() - 1})) || read(radii))
+    {
+      takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
+      return rings.letters;
+    }
   }
   std::string letters = readColors(*candidate.profile, candidate.boundaries, radii);
   candidate.rings.radii = scaledBy(1. / candidate.profile_scale, radii);
