@@ -18,10 +18,11 @@ namespace
 // Deviations of the blur, of brightness and of hue, which colour filter and JPEG widen [px].
 constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
 constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
-constexpr double NOISE = 5;    // of what a pixel adds to the samples [grey levels]
-constexpr double SPREAD = 14;  // of an ink; with 20 of 645 letters 16 more are not read [grey levels]
-constexpr std::array<double, 4> HAZES = {0, .06, .15, .3};
-constexpr double HAZE_COST = 10;  // of one as bright as the white
+// Relative to the white, as the light is by which they are seen.
+constexpr double NOISE = .025;          // of what a pixel adds to the samples
+constexpr double SPREAD = .07;          // of an ink
+constexpr double TINT_DEVIATION = .35;  // of the logarithms of white's red and blue over green
+constexpr double DARKEST = .003;        // linear light
 
 using Inks = std::array<cv::Vec3d, LETTERS>;
 
@@ -32,7 +33,16 @@ double greyLevelOf(double light)
   return 255 * (light <= .0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - .055);
 }
 
-Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
+/** Of taking a colour for white. */
+double tintCost(const cv::Vec3d& bgr)
+{
+  const double green = std::log(linearLight(bgr[1]) + DARKEST);
+  const double blue = (std::log(linearLight(bgr[0]) + DARKEST) - green) / TINT_DEVIATION;
+  const double red = (std::log(linearLight(bgr[2]) + DARKEST) - green) / TINT_DEVIATION;
+  return blue * blue + red * red;
+}
+
+Inks inksUnder(const cv::Vec3d& white_bgr)
 {
   Inks inks;
   for (int letter = 0; letter < LETTERS; ++letter)
@@ -40,8 +50,7 @@ Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
     cv::Vec3d bgr;
     for (int c = 0; c < 3; ++c)
     {
-      const double reflectance = haze + (1 - haze) * REFLECTANCE[letter][2 - c];
-      bgr[c] = greyLevelOf(linearLight(white_bgr[c]) * reflectance);
+      bgr[c] = greyLevelOf(linearLight(white_bgr[c]) * REFLECTANCE[letter][2 - c]);
     }
     inks[letter] = toHue(bgr);
   }
@@ -94,8 +103,9 @@ class InkFit::Part
         values(i, c) = fit.samples_[i][part + c];
       }
     }
-    const double weight = fit.step_ / fit.scale_ / (NOISE * NOISE);  // a pixel counts once, however many its samples
-    const double prior = 1 / (SPREAD * SPREAD);
+    const double level = fit.samples_.back()[0];
+    const double weight = fit.step_ / fit.scale_ / (NOISE * NOISE * level * level);  // of a sample: a pixel counts once
+    const double prior = 1 / (SPREAD * SPREAD * level * level);
     const cv::Mat right = weight * shares.t() * values;
     const cv::Mat inverse =
         cv::Mat(weight * shares.t() * shares + prior * cv::Mat::eye(size, size, CV_64F)).inv(cv::DECOMP_CHOLESKY);
@@ -324,28 +334,19 @@ InkFit::Result InkFit::explain(const Rest& rest, const std::vector<double>& radi
     middles.push_back(samples_[std::min(samples_.size() - 1, static_cast<std::size_t>(middle / step_))]);
   }
   const cv::Vec3d& around = samples_.back();
-  Result best;
-  for (const double haze : HAZES)
-  {
-    const Inks inks = inksUnder(fromHue(around), haze);
-    Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
-    sequence.descend();
-    const double found = sequence.rest() + HAZE_COST * haze;
-    if (found < best.rest)
-    {
-      best = {found, sequence.letters(), haze};
-    }
-  }
-  return best;
+  const Inks inks = inksUnder(fromHue(around));
+  Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
+  sequence.descend();
+  return {sequence.rest() + tintCost(fromHue(around)), sequence.letters()};
 }
 
-std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& explained) const
+std::vector<double> InkFit::margins(const std::vector<double>& radii, const std::vector<int>& letters) const
 {
   const Part brightness(*this, 0, deviations_[0], radii);
   const Part hue(*this, 1, deviations_[1], radii);
-  const Inks inks = inksUnder(fromHue(samples_.back()), explained.haze);
+  const Inks inks = inksUnder(fromHue(samples_.back()));
   const Rest rest(brightness, hue);
-  return Sequence(rest, inks, explained.letters, samples_.back()).margins();
+  return Sequence(rest, inks, letters, samples_.back()).margins();
 }
 
 }  // namespace omr

@@ -8,8 +8,9 @@
 namespace omr
 {
 /**
- * Explains samples along a ray by rings of the key's inks, seen through the blur of lens and camera. An ink may be a
- * little off, and a haze may lie on all; so of rings that the blur merges those are taken whose mixture is seen.
+ * Explains samples along a ray by rings of the key's inks, seen through the blur of lens and camera. What is around
+ * them is taken for white; an ink may be a little off. So of rings that the blur merges those are taken whose mixture
+ * is seen.
  */
 class InkFit
 {
@@ -18,7 +19,6 @@ class InkFit
   {
     double rest = std::numeric_limits<double>::infinity();  ///< squared deviations of samples and inks
     std::vector<int> letters;                               ///< of the rings, indices into LETTER
-    double haze = 0;                                        ///< that lies on them, relative to the white
   };
 
   /**
@@ -34,8 +34,8 @@ class InkFit
   /** @param radii of the boundaries, ascending, not empty [px]. */
   Result explain(const std::vector<double>& radii) const;
 
-  /** Further rest if a ring had another letter, of each ring. @param explained of the same radii */
-  std::vector<double> margins(const std::vector<double>& radii, const Result& explained) const;
+  /** Further rest if a ring had another letter, of each ring. @param letters that explain the same radii */
+  std::vector<double> margins(const std::vector<double>& radii, const std::vector<int>& letters) const;
 
  private:
   class Part;

@@ -23,11 +23,8 @@ constexpr double EVIDENT_SHARE = .5;
 // What uniform rings leave unexplained of a target with narrow ones, relative to its contrast: more shows that the blur
 // hides rings. Of 25 targets of the field with a ring too many or too few 9 have more, of 132 others 1. Sharp rings of
 // 2 to 3 px, which few samples show, have up to .065.
-constexpr double NARROW = 5;       // [px]
-constexpr double NARROW_MEAN = 7;  // width of all rings of a target with narrow ones [px]
+constexpr double NARROW = 5;  // [px]
 constexpr double MOST_UNEXPLAINED = .057;
-constexpr double ROUND = .7;                    // least share of the directions: sheets have .52 to .62
-constexpr double SAME_BOUNDARY = .5;            // most, of the width of the narrowest ring
 constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
 // Between two hues compression leaves a faint one of both, and this may have an edge of its own: in 5 of 2200 targets,
@@ -35,6 +32,11 @@ constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrow
 // mixture, a black one between red and blue comes nearest, with .36 of the step.
 constexpr double HALO_WIDTH = .6;  // most of what has a letter, times that of either neighbour
 constexpr double HALO_HUE = .15;   // most, from the line between the neighbours' colours, relative to their step
+
+// Where the inks tell which rings there are.
+constexpr double NARROW_MEAN = 7;     // width of all rings, most: a narrow one among wide ones is no ring [px]
+constexpr double ROUND = .7;          // share of the directions, least: outlines of square sheets have .52 to .62
+constexpr double SAME_BOUNDARY = .5;  // most, of the width of the narrowest ring
 
 /** Whether there is a boundary, whatever the colours. */
 bool isEvident(const Boundary& boundary)
