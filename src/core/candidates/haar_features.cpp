@@ -274,13 +274,15 @@ bool haarFeatures(const cv::Mat& cells, const cv::Point& first, float* features)
 
   for (int i = 0; i < HAAR_BLOCKS; ++i)
   {
-    const HaarBlock light = blockOf(main, i / 4, i % 4);
+    const int row = i / 4;
+    const int col = i % 4;
+    const HaarBlock light = blockOf(main, row, col);
     *next++ = static_cast<float>(light.sum - 4 * mean) / (4 * contrast);
-    *next++ = static_cast<float>(blockOf(window.red, i / 4, i % 4).sum) / (4 * OCTAVE);
-    *next++ = static_cast<float>(blockOf(window.blue, i / 4, i % 4).sum) / (4 * OCTAVE);
+    *next++ = static_cast<float>(blockOf(window.red, row, col).sum) / (4 * OCTAVE);
+    *next++ = static_cast<float>(blockOf(window.blue, row, col).sum) / (4 * OCTAVE);
     *next++ = static_cast<float>(light.across) / (2 * contrast) - 1;
     *next++ = static_cast<float>(light.down) / (2 * contrast) - 1;
-    *next++ = static_cast<float>(colorOf(window, i / 4, i % 4)) / (2 * contrast);
+    *next++ = static_cast<float>(colorOf(window, row, col)) / (2 * contrast);
   }
   for (const auto& row : main)
   {
