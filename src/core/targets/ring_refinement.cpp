@@ -14,17 +14,15 @@ namespace omr
 namespace
 {
 constexpr int MAX_STEPS = 8;
-// Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives 0.05;
-// 0.35 is beyond what a marker can be read at.
-constexpr double USUAL_PERSPECTIVE = 0.05;
-constexpr double LARGEST_PERSPECTIVE = 0.35;
+constexpr double LARGEST_PERSPECTIVE = 0.35;  // of h R: beyond it no marker can be read
 constexpr double LARGEST_ASPECT = 5;
 constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
 
 class Fit
 {
  public:
-  Fit(const std::vector<BoundaryPoint>& points, bool perspective) : points_(points), perspective_(perspective)
+  Fit(const std::vector<BoundaryPoint>& points, bool perspective, double usual)
+      : points_(points), perspective_(perspective), usual_(usual)
   {
   }
 
@@ -69,7 +67,7 @@ class Fit
   /** Weight of the prior on h: one deviation of the points counts as much as the usual perspective. */
   double priorWeight(const std::vector<double>& radii) const
   {
-    const double usual = USUAL_PERSPECTIVE / radii.back();
+    const double usual = usual_ / radii.back();
     return limit_ * limit_ / (TUKEY * TUKEY * usual * usual);
   }
 
@@ -153,6 +151,7 @@ class Fit
 
   CircleDistances points_;
   bool perspective_;
+  double usual_;                                      // of h R
   std::vector<double> errors_, next_errors_, sizes_;  // [px]
   std::vector<CircleDerivative> derivatives_;
   double limit_ = 1;  // Tukey's: errors beyond it do not count [px]
@@ -160,14 +159,14 @@ class Fit
 }  // namespace
 
 double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
-                    std::vector<double>& radii)
+                    std::vector<double>& radii, double usual_perspective)
 {
   const std::size_t unknowns = 7 + radii.size();
   if (points.size() < unknowns + 4 || radii.empty() || radii.size() > MAX_BOUNDARIES)
   {
     return std::numeric_limits<double>::infinity();
   }
-  Fit fit(points, perspective && radii.size() >= 2);
+  Fit fit(points, perspective && radii.size() >= 2, usual_perspective);
   RingFamily refined = family;
   std::vector<double> refined_radii = radii;
   if (!fit.run(refined, refined_radii))

@@ -7,12 +7,17 @@
 
 namespace omr
 {
-/** An edgel on the outer boundary of a ring. */
+/** A point of an edge on the outer boundary of a ring. */
 struct BoundaryPoint
 {
   cv::Point2d position;  ///< [px]
   int ring = 0;          ///< index into the radii
+  double certainty = 1;  ///< factor of its distance to the circle
 };
+
+/** Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives this.
+ */
+constexpr double USUAL_PERSPECTIVE = 0.05;
 
 /** Largest number of boundaries that refineFamily() takes. */
 constexpr int MAX_BOUNDARIES = 16;
@@ -22,12 +27,13 @@ constexpr int MAX_BOUNDARIES = 16;
  * radii are free: gamma and sharpening shift the boundaries to either side.
  *
  * @param perspective also estimate h, which needs two boundaries at least.
+ * @param usual_perspective that of the outermost circle, which h is drawn to.
  * @param family, radii the start; receive the result.
- * @return            RMS distance of the points that count [px]; infinity, with nothing changed, if there is no
- *                    plausible solution.
+ * @return            RMS distance of the points that count [px], times their certainty; infinity, with nothing
+ *                    changed, if there is no plausible solution.
  */
 double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
-                    std::vector<double>& radii);
+                    std::vector<double>& radii, double usual_perspective = USUAL_PERSPECTIVE);
 
 }  // namespace omr
 

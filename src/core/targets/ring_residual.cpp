@@ -38,26 +38,27 @@ inline PlanePoint planePoint(const RingFamily& family, double dx, double dy)
 }
 
 /** @param distances the circles' radii; receive the distances. */
-OMR_VECTORIZED void measureAll(const RingFamily& source, const double* x, const double* y, std::size_t size,
-                               double* distances)
+OMR_VECTORIZED void measureAll(const RingFamily& source, const double* x, const double* y, const double* certainty,
+                               std::size_t size, double* distances)
 {
   const RingFamily family = source;
   for (std::size_t i = 0; i < size; ++i)
   {
     const PlanePoint point = planePoint(family, x[i] - family.center.x, y[i] - family.center.y);
-    distances[i] = point.scale * (point.radius - distances[i]);
+    distances[i] = certainty[i] * point.scale * (point.radius - distances[i]);
   }
 }
 
-OMR_VECTORIZED void differentiateAll(const RingFamily& source, const double* x, const double* y, std::size_t size,
-                                     CircleDerivative* derivatives)
+OMR_VECTORIZED void differentiateAll(const RingFamily& source, const double* x, const double* y,
+                                     const double* certainty, std::size_t size, CircleDerivative* derivatives)
 {
   const RingFamily family = source;
   for (std::size_t i = 0; i < size; ++i)
   {
     const double dx = x[i] - family.center.x;
     const double dy = y[i] - family.center.y;
-    const PlanePoint p = planePoint(family, dx, dy);
+    PlanePoint p = planePoint(family, dx, dy);
+    p.scale *= certainty[i];
     const double along = p.gx * dx + p.gy * dy;
     derivatives[i][0] = p.scale * (-p.w * p.gx);
     derivatives[i][1] = p.scale * (-p.w * p.gy);
@@ -72,12 +73,13 @@ OMR_VECTORIZED void differentiateAll(const RingFamily& source, const double* x, 
 }  // namespace
 
 CircleDistances::CircleDistances(const std::vector<BoundaryPoint>& points)
-    : x_(points.size()), y_(points.size()), ring_(points.size())
+    : x_(points.size()), y_(points.size()), certainty_(points.size()), ring_(points.size())
 {
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     x_[i] = points[i].position.x;
     y_[i] = points[i].position.y;
+    certainty_[i] = points[i].certainty;
     ring_[i] = points[i].ring;
   }
 }
@@ -87,13 +89,13 @@ void CircleDistances::measure(const RingFamily& family, const std::vector<double
 {
   distances.resize(size());
   std::transform(ring_.begin(), ring_.end(), distances.begin(), [&](int ring) { return radii[ring]; });
-  measureAll(family, x_.data(), y_.data(), size(), distances.data());
+  measureAll(family, x_.data(), y_.data(), certainty_.data(), size(), distances.data());
 }
 
 void CircleDistances::differentiate(const RingFamily& family, std::vector<CircleDerivative>& derivatives) const
 {
   derivatives.resize(size());
-  differentiateAll(family, x_.data(), y_.data(), size(), derivatives.data());
+  differentiateAll(family, x_.data(), y_.data(), certainty_.data(), size(), derivatives.data());
 }
 
 }  // namespace omr

@@ -30,7 +30,7 @@ class CircleDistances
     return ring_[point];
   }
 
-  /** Distance of each point to its circle in the image, positive outside [px]. */
+  /** Distance of each point to its circle in the image, positive outside [px], times its certainty. */
   void measure(const RingFamily& family, const std::vector<double>& radii, std::vector<double>& distances) const;
 
   /** Their derivatives. */
@@ -38,6 +38,7 @@ class CircleDistances
 
  private:
   std::vector<double> x_, y_;  // [px]
+  std::vector<double> certainty_;
   std::vector<int> ring_;
 };
 

@@ -56,7 +56,7 @@ std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checke
     }
   }
   std::vector<Target> targets;
-  for (Target& target : readTargets(bestOfEachPlace(std::move(candidates)), min_rings))
+  for (Target& target : readTargets({}, bestOfEachPlace(std::move(candidates)), min_rings))
   {
     enlarge(target);
     // Wheels have soft rings, too, but no letters: the picture of one among 647 that are not of the evaluation.

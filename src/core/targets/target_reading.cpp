@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ring_letters.h"
+#include "ring_placement.h"
 
 namespace omr
 {
@@ -53,30 +54,36 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
 }
 
 /** @return false if the colours are no target's, or not those of these rings. */
-bool toTarget(RingCandidate candidate, int min_rings, Target& target)
+bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target& target)
 {
   target.colors = readLetters(candidate);
   if (hidesRings(candidate))
   {
     return false;
   }
-  target.center = cv::Point2f(candidate.rings.family.center);
-  for (const double radius : candidate.rings.radii)
+  RingFamily family = candidate.rings.family;
+  std::vector<double> radii = candidate.rings.radii;
+  if (!bgr.empty())
   {
-    target.rings.push_back(candidate.rings.family.ellipse(radius));
+    placeRings(bgr, candidate.boundaries, family, radii);
+  }
+  target.center = cv::Point2f(family.center);
+  for (const double radius : radii)
+  {
+    target.rings.push_back(family.ellipse(radius));
   }
   return isReadable(target, candidate, min_rings);
 }
 }  // namespace
 
-std::vector<Target> readTargets(std::vector<RingCandidate> candidates, int min_rings)
+std::vector<Target> readTargets(const cv::Mat& bgr, std::vector<RingCandidate> candidates, int min_rings)
 {
   std::vector<Target> read(candidates.size());
   std::vector<char> is_target(candidates.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i)
     {
-      is_target[i] = toTarget(std::move(candidates[i]), min_rings, read[i]) ? 1 : 0;
+      is_target[i] = toTarget(bgr, std::move(candidates[i]), min_rings, read[i]) ? 1 : 0;
     }
   });
   std::vector<Target> targets;

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "render_target.h"
+#include "targets/boundary_arcs.h"
+#include "targets/ring_placement.h"
+
+using omr::Boundary;
+using omr::BoundaryArc;
+using omr::RingFamily;
+
+namespace
+{
+constexpr double AREA = 1. / 9;  // of the scene's rings in the image over those on their plane
+
+TargetScene tiltedScene()
+{
+  TargetScene scene;
+  scene.homography = tiltedView({240.3, 180.6}, .6, .7, std::sqrt(AREA), 900);
+  return scene;
+}
+
+/** The family of a homography, exact. */
+RingFamily familyOf(const cv::Matx33d& plane_to_image, double& scale)
+{
+  // With [A + c h^T, c; h^T, 1] A need not be symmetric: a turn of the plane makes it so.
+  const cv::Matx33d h = plane_to_image * (1 / plane_to_image(2, 2));
+  RingFamily family;
+  family.center = {h(0, 2), h(1, 2)};
+  const cv::Vec2d perspective(h(2, 0), h(2, 1));
+  const cv::Matx22d a(h(0, 0) - h(0, 2) * h(2, 0), h(0, 1) - h(0, 2) * h(2, 1), h(1, 0) - h(1, 2) * h(2, 0),
+                      h(1, 1) - h(1, 2) * h(2, 1));
+  cv::Matx22d u;
+  cv::Matx22d vt;
+  cv::Vec2d w;
+  cv::SVD::compute(a, w, u, vt);
+  scale = std::sqrt(w[0] * w[1]);
+  const cv::Matx22d symmetric = u * cv::Matx22d(w[0] / scale, 0, 0, w[1] / scale) * u.t();
+  const cv::Vec2d turned = u * vt * perspective * (1 / scale);
+  family.a = symmetric(0, 0);
+  family.b = symmetric(0, 1);
+  family.d = symmetric(1, 1);
+  family.hx = turned[0];
+  family.hy = turned[1];
+  return family;
+}
+
+struct Placed
+{
+  RingFamily truth, family;
+  std::vector<double> radii;
+
+  /** Distance of the outermost ellipse's centre from the true one [px]. */
+  double error() const
+  {
+    return cv::norm(family.ellipse(radii.back()).center - truth.ellipse(radii.back()).center);
+  }
+};
+
+/** Places rings that are 0.2 px off. @param agreeing directions in which they show. */
+Placed place(const TargetScene& scene, const cv::Mat& image, omr::AngleBins agreeing = ~omr::AngleBins{0})
+{
+  Placed placed;
+  double scale = 1;
+  placed.truth = placed.family = familyOf(scene.homography, scale);
+  for (const double radius : scene.radii)
+  {
+    placed.radii.push_back(radius * scale);
+  }
+  placed.family.center += cv::Point2d(.12, -.16);
+  Boundary boundary;
+  boundary.agreeing = agreeing;
+  omr::placeRings(image, std::vector<Boundary>(placed.radii.size(), boundary), placed.family, placed.radii);
+  return placed;
+}
+}  // namespace
+
+TEST(RingPlacement, isRightToAHundredthOfAPixel)
+{
+  for (const unsigned seed : {1, 2, 3})
+  {
+    TargetScene scene = tiltedScene();
+    scene.seed = seed;
+    EXPECT_LT(place(scene, renderTarget(scene)).error(), .03) << seed;
+  }
+}
+
+TEST(RingPlacement, whatCoversAPartCountsLittle)
+{
+  TargetScene scene = tiltedScene();
+  scene.cover = 40;
+  scene.cover_offset = {70, 30};
+  EXPECT_LT(place(scene, renderTarget(scene)).error(), .06);
+}
+
+TEST(RingPlacement, aGreenRingBesideARedOneShowsToo)
+{
+  TargetScene scene = tiltedScene();
+  scene.colors = "RGRGB";
+  double scale = 1;
+  const RingFamily family = familyOf(scene.homography, scale);
+  std::vector<double> radii;
+  for (const double radius : scene.radii)
+  {
+    radii.push_back(radius * scale);
+  }
+  std::vector<double> squared(radii.size());
+  std::vector<int> count(radii.size());
+  for (const BoundaryArc& arc : omr::measureArcs(renderTarget(scene), family, radii))
+  {
+    const double off = cv::norm(family.toPlane(arc.position)) - radii[arc.ring];
+    squared[arc.ring] += off * off;
+    ++count[arc.ring];
+  }
+  for (std::size_t k = 0; k < radii.size(); ++k)
+  {
+    ASSERT_GT(count[k], 6) << k;
+    EXPECT_LT(std::sqrt(squared[k] / count[k]), .35) << k;  // gamma moves all of a boundary alike
+  }
+}
+
+TEST(RingPlacement, ringsStayWhereNothingShows)
+{
+  const TargetScene scene = tiltedScene();
+  const cv::Mat image = renderTarget(scene);
+  EXPECT_NEAR(.2, place(scene, image, 0).error(), .01);
+  EXPECT_NEAR(.2, place(scene, cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90))).error(), .01);
+}
+
+TEST(RingPlacement, ringsBeyondTheImageAreNotRead)
+{
+  TargetScene scene = tiltedScene();
+  scene.homography = tiltedView({3, 4}, .6, .7, std::sqrt(AREA), 900);
+  EXPECT_LT(place(scene, renderTarget(scene)).error(), .5);
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
