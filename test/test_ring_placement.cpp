@@ -129,6 +129,22 @@ TEST(RingPlacement, ringsStayWhereNothingShows)
   EXPECT_NEAR(.2, place(scene, cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90))).error(), .01);
 }
 
+TEST(RingPlacement, needsNoBoundaries)
+{
+  const TargetScene scene = tiltedScene();
+  double scale = 1;
+  RingFamily family = familyOf(scene.homography, scale);
+  const cv::Point2d center = family.center;
+  std::vector<double> radii;
+  for (const double radius : scene.radii)
+  {
+    radii.push_back(radius * scale);
+  }
+  family.center += cv::Point2d(.12, -.16);
+  omr::placeRings(renderTarget(scene), {Boundary()}, family, radii);
+  EXPECT_LT(cv::norm(family.center - center), .1);
+}
+
 TEST(RingPlacement, ringsBeyondTheImageAreNotRead)
 {
   TargetScene scene = tiltedScene();

@@ -13,7 +13,7 @@ namespace omr
  * the ellipses of their outermost rings 0.004 to 0.01, 0.007 to 0.02 where 30 % are hidden. */
 constexpr double CORNER_SIGMA = 0.02;
 constexpr double TARGET_SIGMA = 0.06;
-constexpr double RING_SIGMA = 0.013;
+constexpr double RING_SIGMA = 0.016;
 
 /**
  * solvePose() for pairs of detected markers, whose residuals say too little of their errors: the detector draws the

@@ -29,14 +29,8 @@ double median(std::vector<double>& values)
 }
 
 /** The arcs that nothing covers: their steps, and what they lack, are as of most arcs of the boundary. */
-std::vector<BoundaryPoint> openPoints(std::vector<BoundaryArc> arcs, const std::vector<Boundary>& boundaries)
+std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std::size_t rings)
 {
-  const auto is_hidden = [&](const BoundaryArc& arc) {
-    const Boundary& boundary = boundaries[arc.ring];
-    return ((boundary.agreeing | boundary.supported) >> static_cast<int>(arc.turn * ANGLE_BINS) & 1) == 0;
-  };
-  arcs.erase(std::remove_if(arcs.begin(), arcs.end(), is_hidden), arcs.end());
-  const std::size_t rings = boundaries.size();
   std::vector<std::vector<double>> steps(rings);
   std::vector<std::vector<double>> lacking(rings);
   for (const BoundaryArc& arc : arcs)
@@ -76,11 +70,19 @@ void placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, Rin
   {
     return;
   }
+  std::vector<BoundaryArc> arcs = measureArcs(bgr, family, radii);
+  if (boundaries.size() == radii.size())
+  {
+    const auto is_hidden = [&](const BoundaryArc& arc) {
+      const Boundary& boundary = boundaries[arc.ring];
+      return ((boundary.agreeing | boundary.supported) >> static_cast<int>(arc.turn * ANGLE_BINS) & 1) == 0;
+    };
+    arcs.erase(std::remove_if(arcs.begin(), arcs.end(), is_hidden), arcs.end());
+  }
   const double aspect = family.aspect();
   const double tilt = std::max(LEAST_TILT, std::sqrt(1 - 1 / (aspect * aspect)));
   const double perspective = tilt * radii.back() / std::max(bgr.cols, bgr.rows);
-  refineFamily(openPoints(measureArcs(bgr, family, radii), boundaries), true, family, radii,
-               std::min(USUAL_PERSPECTIVE, perspective));
+  refineFamily(openPoints(arcs, radii.size()), true, family, radii, std::min(USUAL_PERSPECTIVE, perspective));
 }
 
 }  // namespace omr

@@ -17,7 +17,7 @@ namespace omr
  * distance 0.153 and 0.100, occlusion 0.180 and 0.160 px.
  *
  * @param bgr           CV_8UC3, not filtered.
- * @param boundaries    one a radius; where they do not show they do not count.
+ * @param boundaries    where they do not show they do not count; of another number than the radii: unknown.
  * @param family, radii receive the places; they stay where the pixels do not tell.
  */
 void placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, RingFamily& family,

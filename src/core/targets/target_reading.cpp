@@ -53,6 +53,16 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   return unknown == 0 || diameter > MEDIUM_DIAMETER || clearness > CLEAR;
 }
 
+void setRings(const Rings& rings, Target& target)
+{
+  target.center = cv::Point2f(rings.family.center);
+  target.rings.clear();
+  for (const double radius : rings.radii)
+  {
+    target.rings.push_back(rings.family.ellipse(radius));
+  }
+}
+
 /** @return false if the colours are no target's, or not those of these rings. */
 bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target& target)
 {
@@ -61,18 +71,17 @@ bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target
   {
     return false;
   }
-  RingFamily family = candidate.rings.family;
-  std::vector<double> radii = candidate.rings.radii;
+  setRings(candidate.rings, target);
+  if (!isReadable(target, candidate, min_rings))
+  {
+    return false;
+  }
   if (!bgr.empty())
   {
-    placeRings(bgr, candidate.boundaries, family, radii);
+    placeRings(bgr, candidate.boundaries, candidate.rings.family, candidate.rings.radii);
+    setRings(candidate.rings, target);
   }
-  target.center = cv::Point2f(family.center);
-  for (const double radius : radii)
-  {
-    target.rings.push_back(family.ellipse(radius));
-  }
-  return isReadable(target, candidate, min_rings);
+  return true;
 }
 }  // namespace
 
