@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "blurred_disk.h"
 #include "color_key.h"
 #include "letter_costs.h"
 #include "ring_samples.h"
@@ -18,9 +17,6 @@ namespace
 // Deviations of the blur, of brightness and of hue, which colour filter and JPEG widen [px].
 constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
 constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
-// Relative to the white, as the light is by which they are seen.
-constexpr double NOISE = .025;          // of what a pixel adds to the samples
-constexpr double SPREAD = .07;          // of an ink
 constexpr double TINT_DEVIATION = .35;  // of the logarithms of white's red and blue over green
 constexpr double DARKEST = .003;        // linear light
 
@@ -78,102 +74,11 @@ std::vector<int> nearestLetters(const Inks& inks, const std::vector<cv::Vec3d>& 
 }
 }  // namespace
 
-/** What brightness (part 0) or hue (part 1) adds to the rest, as a function of the rings' inks c: c Q c - 2 l c + r. */
-class InkFit::Part
-{
- public:
-  Part(const InkFit& fit, int part, double deviation, const std::vector<double>& radii)
-  {
-    const auto count = static_cast<int>(fit.samples_.size());
-    const auto size = static_cast<int>(radii.size()) + 1;
-    cv::Mat_<double> shares(count, size);  // of each ring in each sample's light
-    cv::Mat_<double> values(count, part + 1);
-    for (int i = 0; i < count; ++i)
-    {
-      double inner = 0;
-      for (int k = 0; k < size; ++k)
-      {
-        const double outer =
-            k + 1 < size ? blurredDisk(i * fit.step_, radii[static_cast<std::size_t>(k)], fit.scale_ * deviation) : 1;
-        shares(i, k) = outer - inner;
-        inner = outer;
-      }
-      for (int c = 0; c <= part; ++c)
-      {
-        values(i, c) = fit.samples_[i][part + c];
-      }
-    }
-    const double level = fit.samples_.back()[0];
-    const double weight = fit.step_ / fit.scale_ / (NOISE * NOISE * level * level);  // of a sample: a pixel counts once
-    const double prior = 1 / (SPREAD * SPREAD * level * level);
-    const cv::Mat right = weight * shares.t() * values;
-    const cv::Mat inverse =
-        cv::Mat(weight * shares.t() * shares + prior * cv::Mat::eye(size, size, CV_64F)).inv(cv::DECOMP_CHOLESKY);
-    squares = prior * cv::Mat::eye(size, size, CV_64F) - prior * prior * inverse;
-    linear = prior * inverse * right;
-    rest = weight * values.dot(values) - right.dot(inverse * right);
-  }
-
-  cv::Mat_<double> squares;
-  cv::Mat_<double> linear;
-  double rest = 0;
-};
-
-/** The rest as a function of the rings' inks. */
-class InkFit::Rest
-{
- public:
-  Rest(const Part& brightness, const Part& hue) : brightness_(brightness), hue_(hue)
-  {
-  }
-
-  /** Half of the slope, of each ring. */
-  std::vector<cv::Vec3d> slopes(const std::vector<cv::Vec3d>& inks) const
-  {
-    const auto size = static_cast<int>(inks.size());
-    std::vector<cv::Vec3d> result(inks.size());
-    for (int k = 0; k < size; ++k)
-    {
-      result[k] -= linear(k);
-      for (int j = 0; j < size; ++j)
-      {
-        result[k] += inks[j].mul(square(k, j));
-      }
-    }
-    return result;
-  }
-
-  double of(const std::vector<cv::Vec3d>& inks) const
-  {
-    double rest = brightness_.rest + hue_.rest;
-    const std::vector<cv::Vec3d> slope = slopes(inks);
-    for (std::size_t k = 0; k < inks.size(); ++k)
-    {
-      rest += inks[k].dot(slope[k] - linear(static_cast<int>(k)));
-    }
-    return rest;
-  }
-
-  cv::Vec3d square(int k, int j) const
-  {
-    return {brightness_.squares(k, j), hue_.squares(k, j), hue_.squares(k, j)};
-  }
-
- private:
-  cv::Vec3d linear(int k) const
-  {
-    return {brightness_.linear(k, 0), hue_.linear(k, 0), hue_.linear(k, 1)};
-  }
-
-  const Part& brightness_;
-  const Part& hue_;
-};
-
 /** Letters of the rings, of which neighbours differ, and the rest that they leave. */
 class InkFit::Sequence
 {
  public:
-  Sequence(const Rest& rest, const Inks& inks, std::vector<int> letters, const cv::Vec3d& around)
+  Sequence(const InkRest& rest, const Inks& inks, std::vector<int> letters, const cv::Vec3d& around)
       : rest_(rest), inks_(inks), letters_(std::move(letters)), colors_(letters_.size() + 1, around)
   {
     std::transform(letters_.begin(), letters_.end(), colors_.begin(), [&](int letter) { return inks_[letter]; });
@@ -280,14 +185,15 @@ class InkFit::Sequence
     slopes_ = rest_.slopes(colors_);
   }
 
-  const Rest& rest_;
+  const InkRest& rest_;
   const Inks& inks_;
   std::vector<int> letters_;
   std::vector<cv::Vec3d> colors_;
   std::vector<cv::Vec3d> slopes_;
 };
+
 InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale)
-    : samples_(samples), step_(step), scale_(scale), deviations_(BRIGHTNESS_BLUR[0], HUE_BLUR[0])
+    : source_{samples, step, scale}, deviations_(BRIGHTNESS_BLUR[0], HUE_BLUR[0])
 {
 }
 
@@ -296,18 +202,18 @@ void InkFit::chooseBlur(const std::vector<std::vector<double>>& sets_of_radii)
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<double>& radii : sets_of_radii)
   {
-    std::vector<Part> hues;
+    std::vector<InkRestPart> hues;
     hues.reserve(HUE_BLUR.size());
     for (const double of_hue : HUE_BLUR)
     {
-      hues.emplace_back(*this, 1, of_hue, radii);
+      hues.emplace_back(source_, 1, of_hue, radii);
     }
     for (const double of_brightness : BRIGHTNESS_BLUR)
     {
-      const Part brightness(*this, 0, of_brightness, radii);
+      const InkRestPart brightness(source_, 0, of_brightness, radii);
       for (std::size_t i = 0; i < hues.size(); ++i)
       {
-        const double rest = explain(Rest(brightness, hues[i]), radii).rest;
+        const double rest = explain(InkRest(brightness, hues[i]), radii).rest;
         if (rest < least)
         {
           least = rest;
@@ -320,20 +226,21 @@ void InkFit::chooseBlur(const std::vector<std::vector<double>>& sets_of_radii)
 
 InkFit::Result InkFit::explain(const std::vector<double>& radii) const
 {
-  const Part brightness(*this, 0, deviations_[0], radii);
-  const Part hue(*this, 1, deviations_[1], radii);
-  return explain(Rest(brightness, hue), radii);
+  const InkRestPart brightness(source_, 0, deviations_[0], radii);
+  const InkRestPart hue(source_, 1, deviations_[1], radii);
+  return explain(InkRest(brightness, hue), radii);
 }
 
-InkFit::Result InkFit::explain(const Rest& rest, const std::vector<double>& radii) const
+InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& radii) const
 {
   std::vector<cv::Vec3d> middles;
   for (std::size_t k = 0; k < radii.size(); ++k)
   {
     const double middle = k == 0 ? 0 : .5 * (radii[k - 1] + radii[k]);
-    middles.push_back(samples_[std::min(samples_.size() - 1, static_cast<std::size_t>(middle / step_))]);
+    middles.push_back(
+        source_.samples[std::min(source_.samples.size() - 1, static_cast<std::size_t>(middle / source_.step))]);
   }
-  const cv::Vec3d& around = samples_.back();
+  const cv::Vec3d& around = source_.samples.back();
   const Inks inks = inksUnder(fromHue(around));
   Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
   sequence.descend();
@@ -342,11 +249,11 @@ InkFit::Result InkFit::explain(const Rest& rest, const std::vector<double>& radi
 
 std::vector<double> InkFit::margins(const std::vector<double>& radii, const std::vector<int>& letters) const
 {
-  const Part brightness(*this, 0, deviations_[0], radii);
-  const Part hue(*this, 1, deviations_[1], radii);
-  const Inks inks = inksUnder(fromHue(samples_.back()));
-  const Rest rest(brightness, hue);
-  return Sequence(rest, inks, letters, samples_.back()).margins();
+  const InkRestPart brightness(source_, 0, deviations_[0], radii);
+  const InkRestPart hue(source_, 1, deviations_[1], radii);
+  const Inks inks = inksUnder(fromHue(source_.samples.back()));
+  const InkRest rest(brightness, hue);
+  return Sequence(rest, inks, letters, source_.samples.back()).margins();
 }
 
 }  // namespace omr

@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "ink_rest.h"
+
 namespace omr
 {
 /**
@@ -38,15 +40,11 @@ class InkFit
   std::vector<double> margins(const std::vector<double>& radii, const std::vector<int>& letters) const;
 
  private:
-  class Part;
-  class Rest;
   class Sequence;
 
-  Result explain(const Rest& rest, const std::vector<double>& radii) const;
+  Result explain(const InkRest& rest, const std::vector<double>& radii) const;
 
-  const std::vector<cv::Vec3d>& samples_;
-  double step_;
-  double scale_;
+  RaySamples source_;
   cv::Vec2d deviations_;  // of the blur of brightness, of hue [px]
 };
 
