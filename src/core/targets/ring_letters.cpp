@@ -180,8 +180,13 @@ void takeRings(std::vector<double> radii, RingCandidate& candidate)
 
 std::string readLetters(RingCandidate& candidate)
 {
-  std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
-  if (areNarrow(candidate.rings.radii))
+  const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
+  std::vector<double> left = radii;
+  std::vector<Boundary> boundaries = candidate.boundaries;
+  std::string letters = readColors(*candidate.profile, boundaries, left);
+  left = scaledBy(1. / candidate.profile_scale, left);
+  // Halos would make narrow rings of wide ones: inks read a noisy BGBRG of 8 px as BGBPRG.
+  if (areNarrow(left))
   {
     NarrowRings rings;
     const auto read = [&](const std::vector<double>& found) {
@@ -194,8 +199,8 @@ std::string readLetters(RingCandidate& candidate)
       return rings.letters;
     }
   }
-  std::string letters = readColors(*candidate.profile, candidate.boundaries, radii);
-  candidate.rings.radii = scaledBy(1. / candidate.profile_scale, radii);
+  candidate.boundaries = std::move(boundaries);
+  candidate.rings.radii = std::move(left);
   return letters;
 }
 
