@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "lane_equations.h"
 #include "vectorized.h"
 
 namespace omr
@@ -29,11 +29,8 @@ constexpr int FIRST_ROBUST = 3;
 constexpr float LIMIT = 2;           // of the difference between opposite quadrants and the others
 constexpr float LEAST_LIMIT = 8;     // grey levels, added to it
 constexpr float LEAST_CONTRAST = 1;  // grey levels
-constexpr int LANES = 8;
 constexpr int UNKNOWNS = 6;
 constexpr int MAX_PIXELS = 640;  // 25 x 25, rounded up to LANES
-
-using Lanes = std::array<float, LANES>;
 
 /** Pixels around a corner; 0 everywhere fills up the last ones. */
 struct Pixels
@@ -53,19 +50,11 @@ struct Window
  * quadrants differ by from the others - and by a move along u and v [softness]. */
 using Unknowns = cv::Vec<float, UNKNOWNS>;
 
-/** Normal equations, in sums over every eighth pixel. */
 struct Sums
 {
-  Lanes lacking = {};                                             // squared
-  std::array<std::array<Lanes, UNKNOWNS>, UNKNOWNS> normal = {};  // the lower half
-  std::array<Lanes, UNKNOWNS> right = {};
+  LaneEquations<UNKNOWNS> equations;
+  Lanes lacking = {};  // squared
 };
-
-/** To [-1, 1] without a branch, which would keep the compiler from vectors. */
-inline float clampToOne(float x)
-{
-  return 0.5F * (std::abs(x + 1) - std::abs(x - 1));
-}
 
 /** Adds up the equations of the picture as it is. @param per_limit 1 / grey levels that a pixel of weight 0 lacks. */
 OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float per_limit, Sums& sums)
@@ -83,9 +72,8 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float p
       const float y = clampToOne(pixels.v[i] - picture[5]);
       const float xx = x * x;
       const float yy = y * y;
-      // The integral of 15 / 8 (1 - x^2)^2, a bell much like the normal one, but without an exponential.
-      const float a = x * (1.875F - xx * (1.25F - 0.375F * xx));
-      const float b = y * (1.875F - yy * (1.25F - 0.375F * yy));
+      const float a = softEdge(x);
+      const float b = softEdge(y);
       const float lacking = pixels.grey[i] - picture[0] - picture[1] * a - (picture[2] + picture[3] * a) * b;
       const float share = lacking * per_limit;
       const float inside = 1 - share * share;
@@ -99,30 +87,12 @@ OMR_VECTORIZED void addUp(const Window& window, const Unknowns& picture, float p
       by[5][i] = (picture[2] + picture[3] * a) * (-1.875F * weight) * (1 - yy) * (1 - yy);
       rest[i] = lacking * weight;
     }
-    for (int row = 0; row < UNKNOWNS; ++row)
-    {
-      for (int column = 0; column <= row; ++column)
-      {
-        for (int i = 0; i < LANES; ++i)
-        {
-          sums.normal[row][column][i] += by[row][i] * by[column][i];
-        }
-      }
-      for (int i = 0; i < LANES; ++i)
-      {
-        sums.right[row][i] += by[row][i] * rest[i];
-      }
-    }
+    sums.equations.add(by, rest);
     for (int i = 0; i < LANES; ++i)
     {
       sums.lacking[i] += squared[i];
     }
   }
-}
-
-float total(const Lanes& lanes)
-{
-  return std::accumulate(lanes.begin(), lanes.end(), 0.F);
 }
 
 /** The change by least squares over all pixels; a picture without edges does not move. @param lacking receives the RMS
@@ -133,18 +103,7 @@ Unknowns changeOf(const Window& window, const Unknowns& picture, float per_limit
   Sums sums;
   addUp(window, picture, per_limit, sums);
   lacking = std::sqrt(total(sums.lacking) / static_cast<float>(std::max(1, window.count)));
-  cv::Matx<double, UNKNOWNS, UNKNOWNS> normal;
-  cv::Vec<double, UNKNOWNS> right;
-  for (int row = 0; row < UNKNOWNS; ++row)
-  {
-    for (int column = 0; column <= row; ++column)
-    {
-      normal(row, column) = normal(column, row) = total(sums.normal[row][column]);
-    }
-    normal(row, row) += RIDGE;
-    right[row] = total(sums.right[row]);
-  }
-  return normal.solve(right, cv::DECOMP_CHOLESKY);
+  return sums.equations.normalMatrix(RIDGE).solve(sums.equations.rightSide(), cv::DECOMP_CHOLESKY);
 }
 
 /** The pixels along both edges. @param across_u, across_v gradients of the distances from the lines [softness / px].

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "corner_fit.h"
 #include "lattice_model.h"
 #include "lattice_prediction.h"
 #include "lattice_side.h"
+#include "median.h"
 
 namespace omr
 {
@@ -30,12 +32,9 @@ void weightCorners(const std::vector<float>& misfits, float noise, Lattice& latt
   {
     return;
   }
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const float median = *middle;
-  std::transform(sorted.begin(), sorted.end(), sorted.begin(), [&](float misfit) { return std::abs(misfit - median); });
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const float limit = median + CLEAN * 1.4826F * *middle;
+  const float usual = median(sorted);
+  std::transform(sorted.begin(), sorted.end(), sorted.begin(), [&](float misfit) { return std::abs(misfit - usual); });
+  const float limit = usual + CLEAN * 1.4826F * median(std::move(sorted));
   std::size_t number = 0;
   for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
   {

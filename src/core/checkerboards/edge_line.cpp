@@ -1,11 +1,13 @@
 #include "edge_line.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "corner_ring.h"
 #include "edge_look.h"
 #include "lattice_evidence.h"
+#include "median.h"
 
 namespace omr
 {
@@ -49,13 +51,7 @@ float medianRatio(const Frame& frame, const LatticeModel& model, const Lattice& 
       }
     }
   }
-  if (ratios.empty())
-  {
-    return 0;
-  }
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 0 : median(std::move(ratios));
 }
 }  // namespace
 

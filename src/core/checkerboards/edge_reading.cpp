@@ -1,6 +1,7 @@
 #include "edge_reading.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "corner_fit.h"
@@ -9,6 +10,7 @@
 #include "edge_look.h"
 #include "lattice_model.h"
 #include "lattice_side.h"
+#include "median.h"
 
 namespace omr
 {
@@ -95,13 +97,7 @@ float lookAtNodes(const Frame& frame, const LatticeModel& model, float ratio, La
       }
     }
   }
-  if (ratios.empty())
-  {
-    return 0;
-  }
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 0 : median(std::move(ratios));
 }
 
 void dropEmptyLines(Lattice& lattice)

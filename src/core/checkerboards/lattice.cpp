@@ -1,6 +1,10 @@
 #include "lattice.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "median.h"
 
 namespace omr
 {
@@ -55,13 +59,7 @@ float Lattice::medianContrast() const
       }
     }
   }
-  if (contrasts.empty())
-  {
-    return 0;
-  }
-  const auto middle = contrasts.begin() + contrasts.size() / 2;
-  std::nth_element(contrasts.begin(), middle, contrasts.end());
-  return *middle;
+  return contrasts.empty() ? 0 : median(std::move(contrasts));
 }
 
 }  // namespace omr

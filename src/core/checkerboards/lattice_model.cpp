@@ -5,6 +5,7 @@
 
 #include "homography_fit.h"
 #include "least_squares.h"
+#include "median.h"
 
 namespace omr
 {
@@ -141,9 +142,7 @@ bool LatticeModel::fit(const Lattice& lattice, Terms terms, double ridge)
       weight += weights[i];
     }
     rms_ = std::sqrt(sum / weight);
-    std::vector<double> sorted = residuals;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    median_ = sorted[sorted.size() / 2];
+    median_ = omr::median(residuals);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
       const double excess = residuals[i] / (outlier * std::max(LEAST_MEDIAN, median_));

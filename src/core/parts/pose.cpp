@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "median.h"
 #include "reprojection.h"
 
 namespace omr
@@ -38,8 +39,7 @@ double robustScale(const std::vector<cv::Vec2d>& residuals)
   {
     lengths.push_back(cv::norm(residual));
   }
-  std::nth_element(lengths.begin(), lengths.begin() + lengths.size() / 2, lengths.end());
-  return std::max(lengths[lengths.size() / 2] / RAYLEIGH_MEDIAN, MIN_SCALE);
+  return std::max(median(std::move(lengths)) / RAYLEIGH_MEDIAN, MIN_SCALE);
 }
 
 /** Covariance, errors and counts of a pose that has converged; `scale` bounds what an outlier counts. */

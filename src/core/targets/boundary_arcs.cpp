@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
+#include "lane_equations.h"
+#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -21,12 +22,9 @@ constexpr int MIN_ARCS = 8;
 constexpr double MAX_HALF_LENGTH = 4;  // of the pixels along an arc [px]
 constexpr double MAX_OFFSET = 1;       // [px]
 constexpr int ROUNDS = 3;              // the first finds the levels only
-constexpr int LANES = 8;
 constexpr int MIN_PIXELS = 8;
 constexpr int MAX_PIXELS = 96;
 constexpr int UNKNOWNS = 3;
-
-using Lanes = std::array<float, LANES>;
 
 /** Pixels beside an edge; 0 everywhere fills up the last ones. */
 struct Pixels
@@ -57,19 +55,11 @@ struct Place
 /** Its level in the middle, half of the step outwards, and how far outside the place it is [px]. */
 using Edge = cv::Vec<float, UNKNOWNS>;
 
-/** Normal equations, in sums over every eighth pixel. */
 struct Sums
 {
-  std::array<std::array<Lanes, UNKNOWNS>, UNKNOWNS> normal = {};  // the lower half
-  std::array<Lanes, UNKNOWNS> right = {};
+  LaneEquations<UNKNOWNS> equations;
   Lanes lacking = {};  // squared
 };
-
-/** To [-1, 1] without a branch, which would keep the compiler from vectors. */
-inline float clampToOne(float x)
-{
-  return 0.5F * (std::abs(x + 1) - std::abs(x - 1));
-}
 
 OMR_VECTORIZED void addUp(const Pixels& pixels, const Edge& edge, float per_softness, Sums& sums)
 {
@@ -82,38 +72,19 @@ OMR_VECTORIZED void addUp(const Pixels& pixels, const Edge& edge, float per_soft
     {
       const float x = clampToOne((pixels.distance[group][i] - edge[2]) * per_softness);
       const float xx = x * x;
-      // The integral of 15 / 8 (1 - x^2)^2, a bell much like the normal one, but without an exponential.
-      const float a = x * (1.875F - xx * (1.25F - 0.375F * xx));
+      const float a = softEdge(x);
       const float weight = pixels.is_pixel[group][i];
       by[0][i] = weight;
       by[1][i] = a * weight;
       by[2][i] = edge[1] * per_softness * (-1.875F * weight) * (1 - xx) * (1 - xx);
       rest[i] = weight * (pixels.level[group][i] - edge[0] - edge[1] * a);
     }
-    for (int row = 0; row < UNKNOWNS; ++row)
-    {
-      for (int column = 0; column <= row; ++column)
-      {
-        for (int i = 0; i < LANES; ++i)
-        {
-          sums.normal[row][column][i] += by[row][i] * by[column][i];
-        }
-      }
-      for (int i = 0; i < LANES; ++i)
-      {
-        sums.right[row][i] += by[row][i] * rest[i];
-      }
-    }
+    sums.equations.add(by, rest);
     for (int i = 0; i < LANES; ++i)
     {
       sums.lacking[i] += rest[i] * rest[i];
     }
   }
-}
-
-double total(const Lanes& lanes)
-{
-  return std::accumulate(lanes.begin(), lanes.end(), 0.F);
 }
 
 Pixels gather(const cv::Mat& bgr, const cv::Vec3f& channel, const Place& place)
@@ -156,17 +127,8 @@ bool fitEdge(const cv::Mat& bgr, const cv::Vec3f& channel, const Place& place, B
   {
     Sums sums;
     addUp(pixels, edge, static_cast<float>(1 / SOFTNESS), sums);
-    cv::Vec3d right;
-    for (int row = 0; row < UNKNOWNS; ++row)
-    {
-      for (int column = 0; column <= row; ++column)
-      {
-        normal(row, column) = normal(column, row) = total(sums.normal[row][column]);
-      }
-      normal(row, row) += RIDGE;
-      right[row] = total(sums.right[row]);
-    }
-    edge += Edge(normal.solve(right, cv::DECOMP_CHOLESKY));
+    normal = sums.equations.normalMatrix(RIDGE);
+    edge += Edge(normal.solve(sums.equations.rightSide(), cv::DECOMP_CHOLESKY));
     if (!(std::abs(edge[2]) < MAX_OFFSET))
     {
       return false;
@@ -178,12 +140,6 @@ bool fitEdge(const cv::Mat& bgr, const cv::Vec3f& channel, const Place& place, B
   arc.steepness = std::sqrt(1 / normal.inv(cv::DECOMP_CHOLESKY)(2, 2));
   arc.pixels = pixels.count;
   return true;
-}
-float median(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /** The mixture of B, G and R in which a boundary shows best: that of its step, but more of the grey, which compression

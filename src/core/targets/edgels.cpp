@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gradient_tile.h"
+#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -213,9 +214,7 @@ float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
       }
     }
   }
-  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-  std::nth_element(sample.begin(), middle, sample.end());
-  return *middle;
+  return median(std::move(sample));
 }
 }  // namespace
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bent_refinement.h"
+#include "median.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -51,9 +53,7 @@ struct Peak
 double leastSupport(std::vector<double> support)
 {
   const double strongest = *std::max_element(support.begin(), support.end());
-  const auto middle = support.begin() + static_cast<std::ptrdiff_t>(support.size() / 2);
-  std::nth_element(support.begin(), middle, support.end());
-  return std::max({MIN_SUPPORT, RELATIVE_SUPPORT * strongest, *middle + ABOVE_BACKGROUND});
+  return std::max({MIN_SUPPORT, RELATIVE_SUPPORT * strongest, median(std::move(support)) + ABOVE_BACKGROUND});
 }
 
 /** Radii at which the angular support has a maximum, ascending. */

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boundary_arcs.h"
+#include "median.h"
 #include "ring_refinement.h"
 
 namespace omr
@@ -21,13 +23,6 @@ constexpr double UNEVEN = .03;
 // straight on the tilt itself is uncertain.
 constexpr double LEAST_TILT = .1;
 
-double median(std::vector<double>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /** The arcs that nothing covers: their steps, and what they lack, are as of most arcs of the boundary. */
 std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std::size_t rings)
 {
@@ -44,8 +39,8 @@ std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std:
   {
     if (!steps[k].empty())
     {
-      step[k] = median(steps[k]);
-      noise[k] = std::max(LEAST_NOISE, median(lacking[k]));
+      step[k] = median(std::move(steps[k]));
+      noise[k] = std::max(LEAST_NOISE, median(std::move(lacking[k])));
     }
   }
   std::vector<BoundaryPoint> points;
