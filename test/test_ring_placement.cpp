@@ -77,7 +77,7 @@ Placed place(const TargetScene& scene, const cv::Mat& image, omr::AngleBins agre
 }
 }  // namespace
 
-TEST(RingPlacement, isRightToAHundredthOfAPixel)
+TEST(RingPlacement, isRightToThreeHundredthsOfAPixel)
 {
   for (const unsigned seed : {1, 2, 3})
   {

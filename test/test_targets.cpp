@@ -11,6 +11,23 @@ using omr::test::expectFound;
 using omr::test::findTargetsIn;
 using omr::test::targetRegions;
 
+namespace
+{
+/** Adds a share of another colour's light to the ring between two radii around (240, 180) [px]. */
+void mixInto(cv::Mat& image, double inner, double outer, const cv::Vec3b& other, double share)
+{
+  const auto light = [](double grey) { return std::pow(grey / 255, 2.2); };
+  image.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* place) {
+    const double radius = std::hypot(place[1] - 240, place[0] - 180);
+    for (int c = 0; c < 3 && radius > inner && radius < outer; ++c)
+    {
+      const double mixture = share * light(other[c]) + (1 - share) * light(pixel[c]);
+      pixel[c] = cv::saturate_cast<uchar>(255 * std::pow(mixture, 1 / 2.2));
+    }
+  });
+}
+}  // namespace
+
 TEST(Targets, readsEveryColourOnPaper)
 {
   for (const std::string colors : {"RWPGB", "WPWPB", "PBGRP", "BGWRG"})
@@ -92,24 +109,32 @@ TEST(Targets, haloOfAnEdgeIsNoRing)
   TargetScene scene;
   scene.colors = "RBWGB";
   const cv::Mat image = renderTarget(scene);
-  const auto light = [](double grey) { return std::pow(grey / 255, 2.2); };
-  const cv::Vec3b red = image.at<cv::Vec3b>(180, 250);
-  const cv::Vec3b blue = image.at<cv::Vec3b>(180, 270);
-  for (const auto& [outer, share] : {std::pair(26, .15), std::pair(31, .5)})
+  for (const auto& [outer, share] : {std::pair(26., .15), std::pair(31., .5)})
   {
     cv::Mat stained = image.clone();
-    stained.forEach<cv::Vec3b>([&, edge = outer, part = share](cv::Vec3b& pixel, const int* place) {
-      const double radius = std::hypot(place[1] - 240, place[0] - 180);
-      for (int c = 0; c < 3 && radius > 20 && radius < edge; ++c)
-      {
-        const double mixture = part * light(red[c]) + (1 - part) * light(blue[c]);
-        pixel[c] = cv::saturate_cast<uchar>(255 * std::pow(mixture, 1 / 2.2));
-      }
-    });
+    mixInto(stained, 20, outer, image.at<cv::Vec3b>(180, 250), share);
     const std::vector<Target> targets = findTargetsIn(stained);
     ASSERT_EQ(1U, targets.size());
     EXPECT_EQ("RBWGB", targets[0].colors) << outer;
   }
+}
+
+TEST(Targets, halosMakeNoNarrowRings)
+{
+  // Two halos among rings of 8.5 px: of their width in the mean as narrow as those that inks read.
+  TargetScene scene;
+  scene.colors = "BGBRG";
+  scene.radii = {8.5, 17, 25.5, 34, 42.5};
+  scene.sheet_half_side = 55;
+  cv::Mat image = renderTarget(scene);
+  const auto color_at = [&](int radius) { return image.at<cv::Vec3b>(180, 240 + radius); };
+  const cv::Vec3b green = color_at(13);
+  const cv::Vec3b blue = color_at(21);
+  mixInto(image, 4.2, 8.5, green, .25);
+  mixInto(image, 25.5, 30, blue, .4);
+  const std::vector<Target> targets = findTargetsIn(image);
+  ASSERT_EQ(1U, targets.size());
+  EXPECT_EQ("BGBRG", targets[0].colors);
 }
 
 TEST(Targets, threeRingsToNine)

@@ -142,7 +142,7 @@ std::vector<double> scaledBy(double factor, std::vector<double> values)
   return values;
 }
 
-/** Whether the blur merges the rings, and not one that is none with its neighbours. */
+/** Whether the blur merges the rings, as they are narrow as a whole. */
 bool areNarrow(const std::vector<double>& radii)
 {
   return narrowestRing(radii) < NARROW && radii.back() < NARROW_MEAN * static_cast<double>(radii.size());
