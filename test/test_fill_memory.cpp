@@ -24,12 +24,13 @@ void* operator new(std::size_t size)
   return memory;
 }
 
-void operator delete(void* memory) noexcept
+// Not inlined: GCC would see a free() of what it believes to come from its own operator new.
+[[gnu::noinline]] void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t /*size*/) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept
 {
   std::free(memory);
 }
