@@ -49,6 +49,7 @@ TEST(Enlargement, whatIsReadComesBackInPixelsOfTheImage)
   Detector detector;
   detector.answered = {80, 64};  // the box with half its size around it, twice enlarged
   detector.found.targets = {targetAt({40.5, 31.5}, 30)};
+  detector.found.targets[0].outermost_deviation = .02;
   omr::Checkerboard board;
   board.corners = {cv::Point2f(1.5F, 3.5F), cv::Point2f(9.5F, 3.5F), cv::Point2f(9.5F, 61.5F),
                    cv::Point2f(1.5F, 61.5F)};
@@ -61,6 +62,7 @@ TEST(Enlargement, whatIsReadComesBackInPixelsOfTheImage)
   EXPECT_NEAR(52 + 15.5, markers.targets[0].center.y, 1e-9);
   EXPECT_NEAR(15, markers.targets[0].rings[2].size.width, 1e-6);
   EXPECT_NEAR(90 + 20, markers.targets[0].rings[2].center.x, 1e-5);
+  EXPECT_EQ(.02, markers.targets[0].outermost_deviation);
   EXPECT_TRUE(markers.checkerboards.empty()) << "it lies beside the candidate";
   EXPECT_TRUE(markers.candidates[0].read);
   EXPECT_EQ(1U, detector.sizes.size());

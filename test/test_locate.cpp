@@ -26,6 +26,22 @@ TEST_F(Locate, wholePart)
   }
 }
 
+// A target is 0.1 px off, too little for an outlier: it turns the plate the less, the less surely it is placed.
+TEST_F(Locate, anUnsureTargetPullsLittle)
+{
+  const auto turned = [&](double deviation) {
+    PartView view(camera_);
+    view.add(plate(), pose_);
+    view.targets[1].outermost_deviation = deviation;
+    const std::vector<Sighting> right = locate(view, {plate()});
+    view.targets[1].rings.back().center.x += 0.1F;
+    const std::vector<Sighting> off = locate(view, {plate()});
+    expectCertain(off, "plate", pose_);
+    return degreesBetween(off[0].candidates[0].pose.camera_part, right[0].candidates[0].pose.camera_part);
+  };
+  EXPECT_LT(turned(0.3), turned(0.05) / 10);
+}
+
 TEST_F(Locate, boardAloneIsAmbiguousByHalfATurn)
 {
   PartView view(camera_);

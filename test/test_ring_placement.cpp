@@ -51,6 +51,7 @@ struct Placed
 {
   RingFamily truth, family;
   std::vector<double> radii;
+  double deviation = 0;  // stated
 
   /** Distance of the outermost ellipse's centre from the true one [px]. */
   double error() const
@@ -72,7 +73,8 @@ Placed place(const TargetScene& scene, const cv::Mat& image, omr::AngleBins agre
   placed.family.center += cv::Point2d(.12, -.16);
   Boundary boundary;
   boundary.agreeing = agreeing;
-  omr::placeRings(image, std::vector<Boundary>(placed.radii.size(), boundary), placed.family, placed.radii);
+  placed.deviation =
+      omr::placeRings(image, std::vector<Boundary>(placed.radii.size(), boundary), placed.family, placed.radii);
   return placed;
 }
 }  // namespace
@@ -93,6 +95,31 @@ TEST(RingPlacement, whatCoversAPartCountsLittle)
   scene.cover = 40;
   scene.cover_offset = {70, 30};
   EXPECT_LT(place(scene, renderTarget(scene)).error(), .06);
+}
+
+TEST(RingPlacement, statesItsErrorAlsoWhereLittleShows)
+{
+  constexpr omr::AngleBins THIRD = (omr::AngleBins{1} << omr::ANGLE_BINS / 3) - 1;
+  double before = 0;
+  for (const omr::AngleBins agreeing : {~omr::AngleBins{0}, THIRD})
+  {
+    double squared = 0;
+    double stated = 0;
+    constexpr int RUNS = 30;
+    for (unsigned seed = 1; seed <= RUNS; ++seed)
+    {
+      TargetScene scene = tiltedScene();
+      scene.seed = seed;
+      const Placed placed = place(scene, renderTarget(scene), agreeing);
+      squared += placed.error() * placed.error() / 2;  // of each coordinate
+      stated += placed.deviation * placed.deviation;
+    }
+    const double ratio = std::sqrt(squared / stated);
+    EXPECT_GT(ratio, .4) << std::sqrt(stated / RUNS);
+    EXPECT_LT(ratio, 1.5) << std::sqrt(stated / RUNS);
+    EXPECT_GT(stated, 4 * before);
+    before = stated;
+  }
 }
 
 TEST(RingPlacement, aGreenRingBesideARedOneShowsToo)
@@ -125,8 +152,12 @@ TEST(RingPlacement, ringsStayWhereNothingShows)
 {
   const TargetScene scene = tiltedScene();
   const cv::Mat image = renderTarget(scene);
-  EXPECT_NEAR(.2, place(scene, image, 0).error(), .01);
-  EXPECT_NEAR(.2, place(scene, cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90))).error(), .01);
+  for (const Placed& placed :
+       {place(scene, image, 0), place(scene, cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90)))})
+  {
+    EXPECT_NEAR(.2, placed.error(), .01);
+    EXPECT_EQ(0, placed.deviation);
+  }
 }
 
 TEST(RingPlacement, needsNoBoundaries)

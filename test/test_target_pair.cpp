@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "part_view.h"
+#include "parts/marker_pose.h"
 #include "parts/reprojection.h"
 
 using omr::Camera;
 using omr::ImageKind;
+using omr::Part;
 using omr::PartCheckerboard;
 using omr::PartTarget;
 using omr::PointPair;
@@ -28,7 +30,11 @@ const cv::Affine3d POSE = poseAt(0.5, 0.1, 1, 30, -35, 10);
 Target seen(const PartTarget& target, const Camera& camera)
 {
   const std::vector<cv::RotatedRect> rings = ringsOf(target, POSE, camera);
-  return {target.colors, cv::Point2d(rings.front().center), rings};
+  Target seen;
+  seen.colors = target.colors;
+  seen.center = rings.front().center;
+  seen.rings = rings;
+  return seen;
 }
 
 // How the lens bends the ellipse: without straightening it the pixel is 0.9 to 1.6 px off.
@@ -44,6 +50,18 @@ TEST(TargetPair, ringsCenterIsWhereTheCircleSaysForEveryLens)
     EXPECT_LT(cv::norm(pair.pixel - expected), 0.01) << model << pair.pixel << expected;
     EXPECT_GT(cv::norm(pair.pixel - camera.project({POSE * TARGET.center}).front()), 1) << model;
   }
+}
+
+TEST(TargetPair, countsAsSurelyAsItsRingsArePlaced)
+{
+  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Part plate{"plate", {flatBoard()}, {TARGET}};
+  Target target = seen(TARGET, camera);
+  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::UNPLACED_RING_SIGMA);
+  target.outermost_deviation = 0.3;
+  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, 0.3);
+  target.outermost_deviation = 1e-9;
+  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::RING_SIGMA);
 }
 
 TEST(TargetPair, isTheCenterWhereTheRingsDoNotLieAboutIt)

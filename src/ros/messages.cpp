@@ -60,6 +60,7 @@ outdoor_omr::Target toMessage(const Target& target)
   outdoor_omr::Target message;
   message.colors = target.colors;
   message.center = toMessage(target.center);
+  message.outermost_deviation = static_cast<float>(target.outermost_deviation);
   for (const cv::RotatedRect& ring : target.rings)
   {
     message.rings.push_back(toMessage(ring));

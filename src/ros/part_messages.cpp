@@ -170,6 +170,12 @@ std::vector<Target> fromMessage(const outdoor_omr::TargetArray& message)
     {
       throw std::invalid_argument("a target whose centre is no number");
     }
+    if (!std::isfinite(from.outermost_deviation) || from.outermost_deviation < 0)
+    {
+      throw std::invalid_argument("a target whose outermost_deviation is " + std::to_string(from.outermost_deviation) +
+                                  " px");
+    }
+    target.outermost_deviation = from.outermost_deviation;
     for (const outdoor_omr::Ellipse& ring : from.rings)
     {
       target.rings.emplace_back(cv::Point2f(ring.center.x, ring.center.y), cv::Size2f(ring.major_axis, ring.minor_axis),

@@ -9,9 +9,9 @@ namespace
 using Json = nlohmann::ordered_json;
 
 /** A thousandth of a pixel is far below the accuracy of a corner (0.05 px). */
-double rounded(double value)
+double rounded(double value, double parts = 1000)
 {
-  return std::round(value * 1000) / 1000;
+  return std::round(value * parts) / parts;
 }
 
 template <typename Point>
@@ -57,7 +57,10 @@ Json toJson(const Target& target)
   {
     rings.push_back(toJson(ring));
   }
-  return {{"colors", target.colors}, {"center", toJson(target.center)}, {"rings", rings}};
+  return {{"colors", target.colors},
+          {"center", toJson(target.center)},
+          {"rings", rings},
+          {"outermost_deviation", rounded(target.outermost_deviation, 10000)}};
 }
 
 Json toJson(const Candidate& candidate)

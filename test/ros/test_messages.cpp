@@ -118,12 +118,14 @@ TEST(Messages, copiesEveryFieldOfATarget)
   {
     target.rings.emplace_back(cv::Point2f(30.F + i, 40.F), cv::Size2f(20.F * i, 10.F * i), 30.F);
   }
+  target.outermost_deviation = 0.0625;
   const auto array = omr::toMessage(header(), cv::Size(640, 480), std::vector<Target>{target});
   ASSERT_EQ(1U, array.targets.size());
   const auto& message = array.targets[0];
   EXPECT_EQ("RW?", message.colors);
   EXPECT_EQ(33.5F, message.center.x);
   EXPECT_EQ(44.25F, message.center.y);
+  EXPECT_EQ(0.0625F, message.outermost_deviation);
   ASSERT_EQ(3U, message.rings.size());
   for (int i = 1; i <= 3; ++i)
   {

@@ -67,6 +67,14 @@ TEST(PartMessages, pixelsThatAreNoNumbersAreRefused)
   outdoor_omr::TargetArray targets;
   targets.targets.resize(1);
   EXPECT_EQ(omr::fromMessage(targets).size(), 1U);
+  targets.targets[0].outermost_deviation = 0.25;
+  EXPECT_EQ(omr::fromMessage(targets)[0].outermost_deviation, 0.25);
+  for (const float deviation : {-0.1F, static_cast<float>(nan), std::numeric_limits<float>::infinity()})
+  {
+    targets.targets[0].outermost_deviation = deviation;
+    EXPECT_THROW(omr::fromMessage(targets), std::invalid_argument) << deviation;
+  }
+  targets.targets[0].outermost_deviation = 0;
   targets.targets[0].center.x = nan;
   EXPECT_THROW(omr::fromMessage(targets), std::invalid_argument);
 }

@@ -60,6 +60,7 @@ void moveBack(Target& target, const Back& back)
     ring.center = back(ring.center);
     ring.size = ring.size / static_cast<float>(back.factor);
   }
+  // outermost_deviation keeps its number: the enlargement has more pixels, which say no more than those of the image.
 }
 
 cv::Rect boxOf(const Checkerboard& board)

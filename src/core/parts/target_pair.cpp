@@ -62,7 +62,9 @@ PointPair targetPair(const Part& part, const PartTarget& target, const Target& s
     if (cv::norm(middle - seen.center) < CONCENTRIC * radius)
     {
       const double length = target.ring * static_cast<double>(target.colors.size());
-      return {target.center, middle, RING_SIGMA, *axis * length};
+      const double deviation = seen.outermost_deviation;
+      const double sigma = deviation > 0 ? std::max(deviation, RING_SIGMA) : UNPLACED_RING_SIGMA;
+      return {target.center, middle, sigma, *axis * length};
     }
   }
   return {target.center, seen.center, TARGET_SIGMA};

@@ -126,4 +126,14 @@ bool RingEquations::solve(double damping, std::size_t count, FamilyVector& step,
   return true;
 }
 
+cv::Matx<double, UNKNOWNS, UNKNOWNS> RingEquations::covariance(std::size_t count) const
+{
+  auto reduced = normal;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    reduced -= coupling[k] * coupling[k].t() * (1 / (diagonal[k] + 1e-9));
+  }
+  return reduced.inv(cv::DECOMP_SVD);
+}
+
 }  // namespace omr

@@ -26,6 +26,9 @@ struct RingEquations
    */
   bool solve(double damping, std::size_t count, FamilyVector& step,
              std::array<double, MAX_BOUNDARIES>& radius_step) const;
+
+  /** Of the family's unknowns, the radii free, where the points' weighted errors have a variance of 1. */
+  cv::Matx<double, FAMILY_UNKNOWNS, FAMILY_UNKNOWNS> covariance(std::size_t count) const;
 };
 
 /** The equations of the points, weighted by Tukey. */

@@ -58,12 +58,12 @@ std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std:
 }
 }  // namespace
 
-void placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, RingFamily& family,
-                std::vector<double>& radii)
+double placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, RingFamily& family,
+                  std::vector<double>& radii)
 {
   if (family.isBent())
   {
-    return;
+    return 0;
   }
   std::vector<BoundaryArc> arcs = measureArcs(bgr, family, radii);
   if (boundaries.size() == radii.size())
@@ -76,8 +76,10 @@ void placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, Rin
   }
   const double aspect = family.aspect();
   const double tilt = std::max(LEAST_TILT, std::sqrt(1 - 1 / (aspect * aspect)));
-  const double perspective = tilt * radii.back() / std::max(bgr.cols, bgr.rows);
-  refineFamily(openPoints(arcs, radii.size()), true, family, radii, std::min(USUAL_PERSPECTIVE, perspective));
+  const double perspective = std::min(USUAL_PERSPECTIVE, tilt * radii.back() / std::max(bgr.cols, bgr.rows));
+  const std::vector<BoundaryPoint> points = openPoints(arcs, radii.size());
+  const bool is_placed = std::isfinite(refineFamily(points, true, family, radii, perspective));
+  return is_placed ? outermostDeviation(points, family, radii, perspective) : 0;
 }
 
 }  // namespace omr

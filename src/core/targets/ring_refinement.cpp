@@ -63,6 +63,19 @@ class Fit
     return tukeyRms(errors_, limit_);
   }
 
+  double outermostDeviation(const RingFamily& family, const std::vector<double>& radii)
+  {
+    points_.measure(family, radii, errors_);
+    limit_ = tukeyLimit(errors_, sizes_);
+    const auto covariance = build(family, radii).covariance(radii.size()) * std::max(1., rms() * rms());
+    // The ellipse's centre is center - s A h: the other unknowns move it by a hundredth of what these do.
+    const double square = radii.back() * radii.back();
+    const double s = square / (1 - square * (family.hx * family.hx + family.hy * family.hy));
+    const cv::Matx<double, 2, FAMILY_UNKNOWNS> by_unknown(1, 0, 0, 0, 0, -s * family.a, -s * family.b,  //
+                                                          0, 1, 0, 0, 0, -s * family.b, -s * family.d);
+    return std::sqrt(cv::trace(by_unknown * covariance * by_unknown.t()) / 2);
+  }
+
  private:
   /** Weight of the prior on h: one deviation of the points counts as much as the usual perspective. */
   double priorWeight(const std::vector<double>& radii) const
@@ -176,6 +189,12 @@ double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, 
   family = refined;
   radii = refined_radii;
   return fit.rms();
+}
+
+double outermostDeviation(const std::vector<BoundaryPoint>& points, const RingFamily& family,
+                          const std::vector<double>& radii, double usual_perspective)
+{
+  return Fit(points, true, usual_perspective).outermostDeviation(family, radii);
 }
 
 }  // namespace omr

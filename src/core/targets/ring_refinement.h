@@ -35,6 +35,14 @@ constexpr int MAX_BOUNDARIES = 16;
 double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
                     std::vector<double>& radii, double usual_perspective = USUAL_PERSPECTIVE);
 
+/**
+ * Standard deviation of the centre of the outermost circle's ellipse, each coordinate [px], where refineFamily() fitted
+ * the family to the points, with perspective: from the Jacobian and the residuals. Residuals below 1, the standard
+ * deviation of a point, are taken for chance.
+ */
+double outermostDeviation(const std::vector<BoundaryPoint>& points, const RingFamily& family,
+                          const std::vector<double>& radii, double usual_perspective);
+
 }  // namespace omr
 
 #endif

@@ -78,7 +78,7 @@ bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target
   }
   if (!bgr.empty())
   {
-    placeRings(bgr, candidate.boundaries, candidate.rings.family, candidate.rings.radii);
+    target.outermost_deviation = placeRings(bgr, candidate.boundaries, candidate.rings.family, candidate.rings.radii);
     setRings(candidate.rings, target);
   }
   return true;
