@@ -115,6 +115,7 @@ void PartView::add(const PartTarget& target, const cv::Affine3d& camera_part, co
   seen.colors = colors.empty() ? target.colors : colors;
   seen.center = see(target.center, camera_part);
   seen.rings = ringsOf(target, camera_part, camera_);
+  seen.outermost_deviation = 0.01;
   const cv::Point2d noise = seen.center - camera_.project({camera_part * target.center}).front();
   for (cv::RotatedRect& ring : seen.rings)
   {

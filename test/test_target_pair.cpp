@@ -34,6 +34,7 @@ Target seen(const PartTarget& target, const Camera& camera)
   seen.colors = target.colors;
   seen.center = rings.front().center;
   seen.rings = rings;
+  seen.outermost_deviation = 0.01;
   return seen;
 }
 
@@ -57,11 +58,20 @@ TEST(TargetPair, countsAsSurelyAsItsRingsArePlaced)
   const Camera camera(cameraInfo(), ImageKind::RAW);
   const Part plate{"plate", {flatBoard()}, {TARGET}};
   Target target = seen(TARGET, camera);
-  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::UNPLACED_RING_SIGMA);
+  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::RING_SIGMA);
   target.outermost_deviation = 0.3;
   EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, 0.3);
-  target.outermost_deviation = 1e-9;
-  EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::RING_SIGMA);
+}
+
+TEST(TargetPair, isTheUnsureCenterWhereThePixelsDoNotPlaceTheRings)
+{
+  const Camera camera(cameraInfo(), ImageKind::RAW);
+  Target target = seen(TARGET, camera);
+  target.outermost_deviation = 0;
+  const PointPair pair = targetPair({"plate", {flatBoard()}, {TARGET}}, TARGET, target, camera);
+  EXPECT_EQ(pair.pixel, target.center);
+  EXPECT_EQ(pair.circle, cv::Vec3d(0, 0, 0));
+  EXPECT_DOUBLE_EQ(pair.sigma, omr::UNPLACED_SIGMA);
 }
 
 TEST(TargetPair, isTheCenterWhereTheRingsDoNotLieAboutIt)

@@ -54,7 +54,8 @@ cv::Point2d straightCenter(const cv::RotatedRect& ellipse, const Camera& camera)
 PointPair targetPair(const Part& part, const PartTarget& target, const Target& seen, const Camera& camera)
 {
   const std::optional<cv::Vec3d> axis = axisOf(part, target);
-  if (axis && seen.rings.size() == target.colors.size())
+  const bool is_placed = seen.outermost_deviation > 0;
+  if (axis && is_placed && seen.rings.size() == target.colors.size())
   {
     const cv::RotatedRect& ellipse = seen.rings.back();
     const cv::Point2d middle = straightCenter(ellipse, camera);
@@ -62,12 +63,10 @@ PointPair targetPair(const Part& part, const PartTarget& target, const Target& s
     if (cv::norm(middle - seen.center) < CONCENTRIC * radius)
     {
       const double length = target.ring * static_cast<double>(target.colors.size());
-      const double deviation = seen.outermost_deviation;
-      const double sigma = deviation > 0 ? std::max(deviation, RING_SIGMA) : UNPLACED_RING_SIGMA;
-      return {target.center, middle, sigma, *axis * length};
+      return {target.center, middle, std::max(seen.outermost_deviation, RING_SIGMA), *axis * length};
     }
   }
-  return {target.center, seen.center, TARGET_SIGMA};
+  return {target.center, seen.center, axis && !is_placed ? UNPLACED_SIGMA : TARGET_SIGMA};
 }
 
 }  // namespace omr
