@@ -129,10 +129,21 @@ TEST(Classification, theCurveCountsWhatIsAboveTheThreshold)
       EXPECT_DOUBLE_EQ(.125, at.false_rate);
       EXPECT_DOUBLE_EQ((.6 + .875) / 2, at.accuracy());
       EXPECT_DOUBLE_EQ(.6 / .725, at.precision());
+      EXPECT_DOUBLE_EQ(.05 * .6 + .95 * .875, at.accuracy(.05)) << "of 20 windows one shows a marker";
+      EXPECT_DOUBLE_EQ(.03 / (.03 + .95 * .125), at.precision(.05));
       return;
     }
   }
   FAIL() << "no threshold near .2";
+}
+
+TEST(Classification, whereFewWindowsShowAMarkerAPrecisionTakesAHigherThreshold)
+{
+  const std::vector<omr::Classification> curve = {{-.5, .9, .1}, {0, .8, .02}, {.5, .6, .001}};
+  EXPECT_EQ(-.5, omr::atPrecision(curve, .9).threshold);
+  EXPECT_EQ(0, omr::atPrecision(curve, .95).threshold);
+  EXPECT_EQ(.5, omr::atPrecision(curve, .95, .05).threshold);
+  EXPECT_EQ(.5, omr::atPrecision(curve, .9999).threshold) << "the largest, where none is enough";
 }
 
 int main(int argc, char** argv)

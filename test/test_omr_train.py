@@ -34,7 +34,7 @@ class TrainTest(unittest.TestCase):
     def test_repeats_from_a_seed_and_the_detector_reads_it(self):
         first, done = self.train('a.yaml')
         self.assertEqual(0, done.returncode, done.stderr)
-        for words in ('recall', 'precision', 'accuracy', 'held out: 1 photographs'):
+        for words in ('recall', 'precision', 'accuracy', 'held out: 1 photographs', '1 in 2 ', '1 in 20 '):
             self.assertIn(words, done.stdout)
         second, _ = self.train('b.yaml')
         other, _ = self.train('c.yaml', '--seed', '2')

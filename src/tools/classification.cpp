@@ -6,6 +6,16 @@
 
 namespace omr
 {
+Classification atPrecision(const std::vector<Classification>& curve, double precision, double share)
+{
+  auto chosen = curve.end() - 1;
+  while (chosen != curve.begin() && (chosen - 1)->precision(share) >= precision)
+  {
+    --chosen;
+  }
+  return *chosen;
+}
+
 void ScoreCounts::add(WindowLabel label, const MarkerScores& scores)
 {
   for (int kind = 0; kind < MARKER_KINDS; ++kind)

@@ -16,16 +16,23 @@ struct Classification
   double recall = 0;      ///< share of the windows with a marker
   double false_rate = 0;  ///< share of the windows without
 
-  /** As if there were as many windows with a marker as without. */
-  double accuracy() const
+  /** As if a share of all windows showed a marker. Where it is small the many others weigh: accuracy is high without a
+   * single marker found, and precision low with few false ones. */
+  double accuracy(double share = .5) const
   {
-    return (recall + 1 - false_rate) / 2;
+    return share * recall + (1 - share) * (1 - false_rate);
   }
-  double precision() const
+  double precision(double share = .5) const
   {
-    return recall + false_rate > 0 ? recall / (recall + false_rate) : 1;
+    const double right = share * recall;
+    const double wrong = (1 - share) * false_rate;
+    return right + wrong > 0 ? right / (right + wrong) : 1;
   }
 };
+
+/** The smallest threshold of a curve from which on the precision holds where a share of all windows shows a marker; the
+ * largest one if none does. */
+Classification atPrecision(const std::vector<Classification>& curve, double precision, double share = .5);
 
 /** The scores of held-out windows, from which the curve of a kind follows. */
 class ScoreCounts
