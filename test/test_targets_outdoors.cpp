@@ -125,6 +125,38 @@ TEST(Targets, smallEyesAreNone)
   }
 }
 
+TEST(Targets, aToothedWheelIsNone)
+{
+  const auto wheel = [](double tooth) {
+    constexpr int FINE = 4;
+    cv::Mat image(200 * FINE, 240 * FINE, CV_8UC3);
+    for (int y = 0; y < image.rows; ++y)
+    {
+      for (int x = 0; x < image.cols; ++x)
+      {
+        const cv::Point2d p((x - image.cols / 2) / .85 / FINE, static_cast<double>(y - image.rows / 2) / FINE);
+        int grey = 150;
+        for (const auto& [radius, own] : {std::pair{54, 30}, std::pair{40, 110}, std::pair{27, 200}, std::pair{14, 30}})
+        {
+          const double height = radius > 30 ? tooth : tooth / 2;
+          const double edge = radius + height * std::sin(12 * std::atan2(p.y, p.x) + radius);
+          grey = cv::norm(p) < edge ? own : grey;
+        }
+        image.at<cv::Vec3b>(y, x) = cv::Vec3b::all(static_cast<uchar>(grey));
+      }
+    }
+    cv::resize(image, image, cv::Size(), 1. / FINE, 1. / FINE, cv::INTER_AREA);
+    cv::GaussianBlur(image, image, cv::Size(), .7);
+    cv::Mat noise(image.size(), CV_16SC3);
+    cv::RNG(3).fill(noise, cv::RNG::NORMAL, 0, 2);
+    cv::add(image, noise, image, cv::noArray(), CV_8U);
+    return image;
+  };
+  ASSERT_EQ(1U, findTargetsIn(wheel(0)).size());
+  EXPECT_EQ('?', findTargetsIn(wheel(0))[0].colors[2]);
+  EXPECT_TRUE(findTargetsIn(wheel(1.2)).empty());
+}
+
 TEST(Targets, bentSheet)
 {
   // 31 degrees of a pipe to either side, its axis towards the camera: no ring is an ellipse. As if the sheet
