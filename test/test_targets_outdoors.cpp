@@ -125,9 +125,13 @@ TEST(Targets, smallEyesAreNone)
   }
 }
 
+// Teeth, or an uneven outline, count against rings of which one of four cannot be read, not against one of six.
 TEST(Targets, aToothedWheelIsNone)
 {
-  const auto wheel = [](double tooth) {
+  using Rings = std::vector<std::pair<int, int>>;  // outer radius [px] and grey level, from outside
+  const Rings wheel = {{54, 30}, {40, 110}, {27, 200}, {14, 30}};
+  const Rings target = {{75, 30}, {63, 200}, {51, 30}, {39, 110}, {27, 200}, {14, 30}};
+  const auto drawn = [](const Rings& rings, double tooth) {
     constexpr int FINE = 4;
     cv::Mat image(200 * FINE, 240 * FINE, CV_8UC3);
     for (int y = 0; y < image.rows; ++y)
@@ -136,7 +140,7 @@ TEST(Targets, aToothedWheelIsNone)
       {
         const cv::Point2d p((x - image.cols / 2) / .85 / FINE, static_cast<double>(y - image.rows / 2) / FINE);
         int grey = 150;
-        for (const auto& [radius, own] : {std::pair{54, 30}, std::pair{40, 110}, std::pair{27, 200}, std::pair{14, 30}})
+        for (const auto& [radius, own] : rings)
         {
           const double height = radius > 30 ? tooth : tooth / 2;
           const double edge = radius + height * std::sin(12 * std::atan2(p.y, p.x) + radius);
@@ -152,9 +156,12 @@ TEST(Targets, aToothedWheelIsNone)
     cv::add(image, noise, image, cv::noArray(), CV_8U);
     return image;
   };
-  ASSERT_EQ(1U, findTargetsIn(wheel(0)).size());
-  EXPECT_EQ('?', findTargetsIn(wheel(0))[0].colors[2]);
-  EXPECT_TRUE(findTargetsIn(wheel(1.2)).empty());
+  ASSERT_EQ(1U, findTargetsIn(drawn(wheel, 0)).size());
+  EXPECT_EQ("PW?P", findTargetsIn(drawn(wheel, 0))[0].colors);
+  EXPECT_TRUE(findTargetsIn(drawn(wheel, 1.2)).empty());
+  const std::vector<Target> uneven = findTargetsIn(drawn(target, 1.5));
+  ASSERT_EQ(1U, uneven.size());
+  EXPECT_EQ("PW?PWP", uneven[0].colors);
 }
 
 TEST(Targets, bentSheet)
