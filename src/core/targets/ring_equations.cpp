@@ -133,7 +133,7 @@ cv::Matx<double, UNKNOWNS, UNKNOWNS> RingEquations::covariance(std::size_t count
   {
     reduced -= coupling[k] * coupling[k].t() * (1 / (diagonal[k] + 1e-9));
   }
-  return reduced.inv(cv::DECOMP_SVD);
+  return reduced.inv(cv::DECOMP_CHOLESKY);
 }
 
 }  // namespace omr

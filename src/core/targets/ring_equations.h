@@ -27,7 +27,8 @@ struct RingEquations
   bool solve(double damping, std::size_t count, FamilyVector& step,
              std::array<double, MAX_BOUNDARIES>& radius_step) const;
 
-  /** Of the family's unknowns, the radii free, where the points' weighted errors have a variance of 1. */
+  /** Of the family's unknowns, the radii free, where the points' weighted errors have a variance of 1; 0 if the points
+   * do not determine them. */
   cv::Matx<double, FAMILY_UNKNOWNS, FAMILY_UNKNOWNS> covariance(std::size_t count) const;
 };
 

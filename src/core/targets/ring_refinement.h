@@ -38,7 +38,7 @@ double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, 
 /**
  * Standard deviation of the centre of the outermost circle's ellipse, each coordinate [px], where refineFamily() fitted
  * the family to the points, with perspective: from the Jacobian and the residuals. Residuals below 1, the standard
- * deviation of a point, are taken for chance.
+ * deviation of a point, are taken for chance. 0: the points do not determine the family.
  */
 double outermostDeviation(const std::vector<BoundaryPoint>& points, const RingFamily& family,
                           const std::vector<double>& radii, double usual_perspective);
