@@ -173,7 +173,7 @@ std::vector<Target> fromMessage(const outdoor_omr::TargetArray& message)
     if (!std::isfinite(from.outermost_deviation) || from.outermost_deviation < 0)
     {
       throw std::invalid_argument("a target whose outermost_deviation is " + std::to_string(from.outermost_deviation) +
-                                  " px");
+                                  " px: expected 0, not known, or more");
     }
     target.outermost_deviation = from.outermost_deviation;
     for (const outdoor_omr::Ellipse& ring : from.rings)

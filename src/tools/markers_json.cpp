@@ -8,7 +8,7 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-/** A thousandth of a pixel is far below the accuracy of a corner (0.05 px). */
+/** @param parts of a pixel: a thousandth is far below the accuracy of a corner (0.05 px). */
 double rounded(double value, double parts = 1000)
 {
   return std::round(value * parts) / parts;
@@ -60,7 +60,7 @@ Json toJson(const Target& target)
   return {{"colors", target.colors},
           {"center", toJson(target.center)},
           {"rings", rings},
-          {"outermost_deviation", rounded(target.outermost_deviation, 10000)}};
+          {"outermost_deviation", rounded(target.outermost_deviation, 1e4)}};
 }
 
 Json toJson(const Candidate& candidate)
