@@ -52,11 +52,11 @@ std::uint8_t toMessage(Verdict verdict)
 {
   switch (verdict)
   {
-    case Verdict::WITHIN:
+    case Verdict::within:
       return outdoor_omr::Deviation::WITHIN;
-    case Verdict::OUTSIDE:
+    case Verdict::outside:
       return outdoor_omr::Deviation::OUTSIDE;
-    case Verdict::UNDECIDED:
+    case Verdict::undecided:
       break;
   }
   return outdoor_omr::Deviation::UNDECIDED;
@@ -105,7 +105,8 @@ class DeviationNodelet : public CheckedNodelet
     ros::NodeHandle& nh = getNodeHandle();
     ros::NodeHandle& private_nh = getPrivateNodeHandle();
     const std::string read = readFile();
-    patience_ = ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT));
+    transforms_ = std::make_unique<TransformWait>(
+        buffer_, ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, MAX_TIMEOUT)));
     NODELET_INFO("%s", read.c_str());
     report_ = std::make_unique<StatusReport>(nh, private_nh, getName(), "deviation of parts", "none",
                                              [this](auto& status) { report(status); });
@@ -151,7 +152,7 @@ class DeviationNodelet : public CheckedNodelet
     last_time_ = ros::SteadyTime::now();
   }
 
-  void measure(const Goal& goal, const outdoor_omr::PartArray& parts, outdoor_omr::Deviation& message) const
+  void measure(const Goal& goal, const outdoor_omr::PartArray& parts, outdoor_omr::Deviation& message)
   {
     const outdoor_omr::Part& part = onlyOne(goal.part, parts);
     const Deviation deviation = deviationFrom(goal, inFrameOf(goal, fromMessage(part.pose), parts));
@@ -165,7 +166,7 @@ class DeviationNodelet : public CheckedNodelet
   }
 
   /** The estimate in the frame of the goal. */
-  PoseEstimate inFrameOf(const Goal& goal, const PoseEstimate& estimate, const outdoor_omr::PartArray& parts) const
+  PoseEstimate inFrameOf(const Goal& goal, const PoseEstimate& estimate, const outdoor_omr::PartArray& parts)
   {
     if (goal.frame == parts.header.frame_id)
     {
@@ -177,7 +178,7 @@ class DeviationNodelet : public CheckedNodelet
       return relativeTo(fromMessage(onlyOne(goal.frame, parts).pose), estimate);
     }
     const geometry_msgs::TransformStamped transform =
-        lookupWithin(buffer_, goal.frame, parts.header.frame_id, parts.header.stamp, patience_);
+        transforms_->lookup(goal.frame, parts.header.frame_id, parts.header.stamp);
     return transformed(estimate, fromMessage(transform.transform));
   }
 
@@ -207,13 +208,13 @@ class DeviationNodelet : public CheckedNodelet
   }
 
   std::vector<Goal> goals_;
-  ros::WallDuration patience_;
   std::mutex mutex_;
   outdoor_omr::DeviationArray last_;
   ros::SteadyTime last_time_ = ros::SteadyTime::now();
   ros::Publisher publisher_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};  // has a thread of its own: a wait for TF does not keep TF away
+  std::unique_ptr<TransformWait> transforms_;
 
   // Destroyed first: no callback outlives what it uses.
   std::unique_ptr<StatusReport> report_;

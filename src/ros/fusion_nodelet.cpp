@@ -63,7 +63,8 @@ class FusionNodelet : public CheckedNodelet
                                   ", the number of inputs, not " + std::to_string(settings_.min_cameras));
     }
     const double patience = readNumber(private_nh, "patience", 0.1, 10);
-    tf_timeout_ = ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, 10));
+    transforms_ =
+        std::make_unique<TransformWait>(buffer_, ros::WallDuration(readNumber(private_nh, "tf_timeout", 0.1, 10)));
     tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     collector_ =
@@ -84,10 +85,7 @@ class FusionNodelet : public CheckedNodelet
       inputs_.push_back(nh.subscribe<outdoor_omr::PartArray>(
           topics_[camera], 10, [this, camera](const outdoor_omr::PartArrayConstPtr& view) {
             const std::lock_guard<std::mutex> lock(mutex_);
-            for (const ViewCollector::Views& views : collector_->add(camera, *view, now()))
-            {
-              publish(views);
-            }
+            publish(collector_->add(camera, *view, now()));
           }));
     }
     reload_ = advertiseReload(private_nh, [this] { return readFile(); });
@@ -108,18 +106,17 @@ class FusionNodelet : public CheckedNodelet
     return (ros::SteadyTime::now() - start_).toSec();
   }
 
-  void publish(const ViewCollector::Views& views)
+  void publish(const std::vector<ViewCollector::Views>& collections)
   {
-    if (views.empty())
+    for (const ViewCollector::Views& views : collections)
     {
-      return;
+      const std::string error = caught([&] { fuseAndPublish(views); });
+      if (!error.empty() && error != complaint_)
+      {
+        NODELET_ERROR("No position from these cameras: %s", error.c_str());
+      }
+      complaint_ = error;
     }
-    const std::string error = caught([&] { fuseAndPublish(views); });
-    if (!error.empty() && error != complaint_)
-    {
-      NODELET_ERROR("No position from these cameras: %s", error.c_str());
-    }
-    complaint_ = error;
   }
 
   void fuseAndPublish(const ViewCollector::Views& views)
@@ -157,24 +154,29 @@ class FusionNodelet : public CheckedNodelet
     last_ = fused;
   }
 
-  cv::Affine3d placeOf(const std_msgs::Header& camera) const
+  cv::Affine3d placeOf(const std_msgs::Header& camera)
   {
     if (camera.frame_id == frame_)
     {
       return cv::Affine3d::Identity();
     }
-    return fromMessage(lookupWithin(buffer_, frame_, camera.frame_id, camera.stamp, tf_timeout_).transform);
+    return fromMessage(transforms_->lookup(frame_, camera.frame_id, camera.stamp).transform);
   }
 
   void report(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     std::string silent;
+    std::string too_late;
+    bool is_any_heard = false;
     for (std::size_t camera = 0; camera < topics_.size(); ++camera)
     {
       const double silence = collector_->silence(camera, now());
-      status.addf(topics_[camera], "%.1f s ago", silence);
+      const bool is_too_late = collector_->isTooLate(camera);
+      status.addf(topics_[camera], "%.1f s ago%s", silence, is_too_late ? ", too late" : "");
+      is_any_heard = is_any_heard || silence <= PATIENCE;
       silent += silence > PATIENCE ? " " + topics_[camera] : "";
+      too_late += is_too_late ? " " + topics_[camera] : "";
     }
     std::string contradicted;
     std::string too_few;
@@ -185,7 +187,11 @@ class FusionNodelet : public CheckedNodelet
       contradicted += fusion.agree == 0 ? " " + fusion.part : "";
       too_few += static_cast<int>(fusion.frame_ids.size()) < settings_.min_cameras ? " " + fusion.part : "";
     }
-    if (!complaint_.empty() || !unplaced_.empty())
+    if (!is_any_heard)  // else what the cameras said last would be said for ever
+    {
+      status.summary(DiagnosticStatus::WARN, "Nothing for 5 s from" + silent);
+    }
+    else if (!complaint_.empty() || !unplaced_.empty())
     {
       status.summary(DiagnosticStatus::ERROR, complaint_.empty() ? unplaced_ : complaint_);
     }
@@ -198,6 +204,11 @@ class FusionNodelet : public CheckedNodelet
     {
       status.summaryf(DiagnosticStatus::WARN, "Seen by fewer than %d cameras, not published:%s", settings_.min_cameras,
                       too_few.c_str());
+    }
+    else if (!too_late.empty())
+    {
+      status.summary(DiagnosticStatus::WARN, "Not fused, as the views came too late:" + too_late +
+                                                 ". Raise ~patience; are the clocks of the computers the same?");
     }
     else if (!silent.empty())
     {
@@ -213,7 +224,6 @@ class FusionNodelet : public CheckedNodelet
   std::string frame_;
   std::vector<Part> descriptions_;  // for the markers; empty: they show nothing
   FusionSettings settings_;
-  ros::WallDuration tf_timeout_;
   bool publish_tf_ = true;
   const ros::SteadyTime start_ = ros::SteadyTime::now();
 
@@ -230,6 +240,7 @@ class FusionNodelet : public CheckedNodelet
   tf2_ros::TransformBroadcaster broadcaster_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
+  std::unique_ptr<TransformWait> transforms_;
 
   // Destroyed first: no callback outlives what it uses.
   std::unique_ptr<StatusReport> report_;

@@ -2,17 +2,35 @@
 
 namespace omr
 {
-geometry_msgs::TransformStamped lookupWithin(const tf2_ros::Buffer& buffer, const std::string& target,
-                                             const std::string& source, const ros::Time& time,
-                                             const ros::WallDuration& patience)
+TransformWait::TransformWait(const tf2_ros::Buffer& buffer, const ros::WallDuration& patience)
+    : buffer_(buffer), patience_(patience)
+{
+}
+
+geometry_msgs::TransformStamped TransformWait::lookup(const std::string& target, const std::string& source,
+                                                      const ros::Time& time)
 {
   constexpr double POLL = 0.002;  // [s]
-  const ros::WallTime end = ros::WallTime::now() + patience;
-  while (!buffer.canTransform(target, source, time) && ros::WallTime::now() < end)
+  bool is_there = buffer_.canTransform(target, source, time);
+  if (!is_there && isWorthIt(target, source, time))
   {
-    ros::WallDuration(POLL).sleep();
+    const ros::WallTime end = ros::WallTime::now() + patience_;
+    while (!is_there && ros::WallTime::now() < end)
+    {
+      ros::WallDuration(POLL).sleep();
+      is_there = buffer_.canTransform(target, source, time);
+    }
   }
-  return buffer.lookupTransform(target, source, time);
+  is_there ? void(in_vain_.erase({target, source})) : void(in_vain_.insert({target, source}));
+  return buffer_.lookupTransform(target, source, time);
+}
+
+/** Whether what comes within the patience may reach the time. */
+bool TransformWait::isWorthIt(const std::string& target, const std::string& source, const ros::Time& time) const
+{
+  const ros::Duration patience(patience_.toSec());
+  return in_vain_.count({target, source}) == 0 ||
+         (time > ros::Time() + patience && buffer_.canTransform(target, source, time - patience));
 }
 
 }  // namespace omr

@@ -5,21 +5,37 @@
 #include <ros/time.h>
 #include <tf2_ros/buffer.h>
 
+#include <set>
 #include <string>
+#include <utility>
 
 namespace omr
 {
 /**
- * A transform, waited for in wall time: tf2's own wait never ends while simulated time stands still, as in a paused
- * bag.
- *
- * @param buffer   filled by a thread of its own.
- * @param patience longest wait.
- * @throws tf2::TransformException if it does not come.
+ * Transforms, waited for in wall time: tf2's own wait never ends while simulated time stands still, as in a paused bag.
+ * Frames that were waited for in vain are waited for again only once TF is so near to the time asked for that the wait
+ * can end well: a frame that is unknown or no longer sent costs one wait, and not one of each message, behind which all
+ * later ones would queue.
  */
-geometry_msgs::TransformStamped lookupWithin(const tf2_ros::Buffer& buffer, const std::string& target,
-                                             const std::string& source, const ros::Time& time,
-                                             const ros::WallDuration& patience);
+class TransformWait
+{
+ public:
+  /**
+   * @param buffer   filled by a thread of its own; outlives this.
+   * @param patience longest wait.
+   */
+  TransformWait(const tf2_ros::Buffer& buffer, const ros::WallDuration& patience);
+
+  /** @throws tf2::TransformException if it is not there in time. */
+  geometry_msgs::TransformStamped lookup(const std::string& target, const std::string& source, const ros::Time& time);
+
+ private:
+  bool isWorthIt(const std::string& target, const std::string& source, const ros::Time& time) const;
+
+  const tf2_ros::Buffer& buffer_;
+  ros::WallDuration patience_;
+  std::set<std::pair<std::string, std::string>> in_vain_;  // what was waited for last without success
+};
 
 }  // namespace omr
 

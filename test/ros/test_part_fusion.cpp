@@ -5,14 +5,11 @@
 
 #include "part_fusion.h"
 #include "pose_messages.h"
-#include "view_collector.h"
 
 using omr::CameraView;
 using omr::FusedViews;
 using omr::fuseViews;
-using omr::ViewCollector;
 using outdoor_omr::Part;
-using outdoor_omr::PartArray;
 
 namespace
 {
@@ -171,49 +168,6 @@ TEST(PartFusion, refusesPosesThatAreNone)
   EXPECT_THROW(fuseViews({viewFrom("left", 0, {part})}, base(), SETTINGS), std::invalid_argument);
 }
 
-PartArray viewAt(double stamp)
-{
-  PartArray view;
-  view.header.stamp = ros::Time(stamp);
-  return view;
-}
-
-TEST(ViewCollector, waitsForAllThatLive)
-{
-  ViewCollector collector(2, 0.02, 0.1);
-  EXPECT_EQ(collector.add(0, viewAt(10), 0).size(), 1U);  // nobody else was ever heard
-  EXPECT_EQ(collector.add(1, viewAt(10), 0.01).size(), 0U);
-  const auto first = collector.add(0, viewAt(10.1), 0.1);  // of another time: the lonely one goes first
-  ASSERT_EQ(first.size(), 1U);
-  EXPECT_EQ(first[0].size(), 1U);
-  const auto both = collector.add(1, viewAt(10.11), 0.12);
-  ASSERT_EQ(both.size(), 1U);
-  EXPECT_EQ(both[0].size(), 2U);
-}
-
-TEST(ViewCollector, givesUpOnACameraThatIsSilent)
-{
-  ViewCollector collector(2, 0.02, 0.1);
-  collector.add(0, viewAt(10), 0);
-  collector.add(1, viewAt(10), 0);
-  collector.add(0, viewAt(10), 0.01);
-  EXPECT_TRUE(collector.add(0, viewAt(10.2), 0.2).empty());
-  EXPECT_TRUE(collector.takeLate(0.25).empty());
-  EXPECT_EQ(collector.takeLate(0.31).size(), 1U);
-  EXPECT_TRUE(collector.takeLate(0.5).empty());
-  EXPECT_EQ(collector.add(0, viewAt(12), 2).size(), 1U);  // the other has been silent for more than a second
-  EXPECT_NEAR(collector.silence(1, 2), 2, 1e-9);
-}
-
-TEST(ViewCollector, neverJoinsTwoViewsOfOneCamera)
-{
-  ViewCollector collector(2, 0.5, 0.1);
-  collector.add(1, viewAt(10), 0);
-  collector.add(0, viewAt(10.1), 0.1);
-  const auto done = collector.add(0, viewAt(10.2), 0.2);
-  ASSERT_EQ(done.size(), 1U);
-  EXPECT_EQ(done[0].size(), 1U);
-}
 }  // namespace
 
 int main(int argc, char** argv)
