@@ -33,7 +33,7 @@ class KernelCache(unittest.TestCase):
     def setUp(self):
         devices = subprocess.run([OMR_DETECT, '--list-devices'], stdout=subprocess.PIPE, universal_newlines=True).stdout
         if 'Portable Computing Language' not in devices:
-            self.skipTest('no PoCL')
+            self.fail('there is no PoCL: scripts/setup installs pocl-opencl-icd')
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.image = os.path.join(self.folder.name, 'image.png')

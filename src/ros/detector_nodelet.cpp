@@ -84,7 +84,11 @@ class DetectorNodelet : public CheckedNodelet
         diagnostics_->subscribed(images_.getTopic());
       }
     });
-    NODELET_ERROR_COND(!error.empty(), "Cannot subscribe to the images: %s", error.c_str());
+    if (!error.empty())
+    {
+      diagnostics_->notSubscribed(error);
+      NODELET_ERROR("Cannot subscribe to the images: %s", error.c_str());
+    }
   }
 
   void reconfigure(outdoor_omr::OmrConfig& config)

@@ -27,7 +27,14 @@ void Diagnostics::subscribed(const std::string& topic)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   topic_ = topic;
+  no_subscription_.clear();
   last_image_ = Clock::now();
+}
+
+void Diagnostics::notSubscribed(const std::string& reason)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  no_subscription_ = reason;
 }
 
 void Diagnostics::dropped()
@@ -82,7 +89,11 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status)
 void Diagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const
 {
   const double silence = secondsBetween(last_image_, Clock::now());
-  if (!topic_.empty() && silence > PATIENCE)
+  if (!no_subscription_.empty())
+  {
+    status.summaryf(DiagnosticStatus::ERROR, "Cannot subscribe to the images: %s", no_subscription_.c_str());
+  }
+  else if (!topic_.empty() && silence > PATIENCE)
   {
     status.summaryf(DiagnosticStatus::WARN, "No image on %s for %.0f s.", topic_.c_str(), silence);
   }

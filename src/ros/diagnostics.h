@@ -34,6 +34,9 @@ class Diagnostics
   /** @param topic where images come from now; empty when none are asked for. */
   void subscribed(const std::string& topic);
 
+  /** Images are asked for, and cannot be subscribed to. */
+  void notSubscribed(const std::string& reason);
+
   /** An image was replaced by a newer one before the detector had time for it. */
   void dropped();
 
@@ -54,6 +57,7 @@ class Diagnostics
 
   std::mutex mutex_;
   std::string topic_;
+  std::string no_subscription_;   // why there is none; empty: there is, or none is asked for
   Clock::time_point last_image_;  // or the time of the subscription
   Clock::time_point last_report_;
   std::vector<StepTime> times_;

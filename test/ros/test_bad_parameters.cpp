@@ -1,6 +1,8 @@
 // Nodelets whose parameters make no sense do not start, and the manager with all others in it lives.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
+#include <outdoor_omr/TargetArray.h>
 #include <ros/package.h>
 #include <rosgraph_msgs/Log.h>
 
@@ -8,6 +10,7 @@
 #include "ros_test.h"
 
 using ros_test::Listener;
+using ros_test::newestStatus;
 using ros_test::NodeletManager;
 using ros_test::waitFor;
 
@@ -47,6 +50,19 @@ class BadParameters : public testing::Test
   NodeletManager manager_;
   Listener<rosgraph_msgs::Log> log_{"/rosout"};
 };
+
+// The images are subscribed to when somebody listens, long after the nodelet started.
+TEST_F(BadParameters, ofTheDetectorsImages)
+{
+  ros::param::set("/detector/image_transport", "pigeon");
+  ASSERT_TRUE(NodeletManager::load("detector"));
+  const Listener<outdoor_omr::TargetArray> targets("/detector/targets");
+  const Listener<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto status = [&] { return newestStatus(diagnostics); };
+  EXPECT_TRUE(waitFor([&] { return status().level == diagnostic_msgs::DiagnosticStatus::ERROR; }));
+  EXPECT_EQ(0U, status().message.find("Cannot subscribe to the images: ")) << status().message;
+  EXPECT_NE(std::string::npos, status().message.find("pigeon")) << status().message;
+}
 
 TEST_F(BadParameters, ofThePosition)
 {

@@ -3,6 +3,7 @@
 import glob
 import os
 import re
+import shlex
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -60,6 +61,15 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(config.params['/fusion/min_cameras'].value, 2)
         self.assertEqual(config.params['/fusion/inputs'].value, ['left/position/parts', 'right/position/parts'])
         self.assertFalse(config.params['/left/position/publish_tf'].value)
+        config = load(os.path.join(PACKAGE, 'launch', 'cell.launch'), image='rect', image_kind='rectified')
+        detector = [node for node in config.nodes if node.namespace + node.name == '/right/detector'][0]
+        self.assertIn(['image', 'rect'], [list(pair) for pair in detector.remap_args])
+        self.assertEqual(config.params['/right/position/image_kind'].value, 'rectified')
+
+    def test_names_with_spaces(self):
+        config = load(os.path.join(PACKAGE, 'launch', 'demo.launch'), bag='/a folder/of bags.bag', rviz='false')
+        player = [node for node in config.nodes if node.name == 'player'][0]
+        self.assertIn('--bags=/a folder/of bags.bag', shlex.split(player.args))
 
     def test_cell_on_several_machines(self):
         config = load(os.path.join(PACKAGE, 'launch', 'cell.launch'), right_address='10.0.0.2',
