@@ -76,6 +76,21 @@ class TrainTest(unittest.TestCase):
         self.assertEqual(2, run(TRAIN, self.photographs).returncode)
         self.assertEqual(2, run(TRAIN, '--output', 'a.yaml', '--hidden', '0', self.photographs).returncode)
 
+    def test_a_network_may_be_replaced_and_stays_until_the_new_one_is_there(self):
+        file, done = self.train('a.yaml')
+        self.assertEqual(0, done.returncode, done.stderr)
+        with open(file) as stream:
+            before = stream.read()
+        empty = os.path.join(self.folder, 'empty')
+        os.makedirs(empty)
+        done = run(TRAIN, '--output', file, empty)
+        self.assertEqual(2, done.returncode)
+        with open(file) as stream:
+            self.assertEqual(before, stream.read())
+        done = self.train('a.yaml', '--network', file)[1]
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertEqual(['a.yaml', 'empty', 'photographs'], sorted(os.listdir(self.folder)))
+
     def test_the_detector_refuses_another_file(self):
         file = os.path.join(self.folder, 'a.yaml')
         with open(file, 'w') as stream:

@@ -38,6 +38,45 @@ std::ofstream openOutput(const std::string& name)
   return file;
 }
 
+NewFile::NewFile(const std::string& name)
+    : name_(name),
+      unfinished_(std::filesystem::exists(name) && !std::filesystem::is_regular_file(name) ? name : name + ".part"),
+      stream_(unfinished_)
+{
+  if (!stream_)
+  {
+    throw std::runtime_error("cannot write '" + unfinished_ + "'");
+  }
+}
+
+NewFile::~NewFile()
+{
+  if (!is_finished_ && unfinished_ != name_)
+  {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished_, ignored);
+  }
+}
+
+std::ostream& NewFile::stream()
+{
+  return stream_;
+}
+
+void NewFile::finish()
+{
+  stream_.close();
+  if (!stream_)
+  {
+    throw std::runtime_error("cannot write '" + unfinished_ + "'; is the disk full?");
+  }
+  if (unfinished_ != name_)
+  {
+    std::filesystem::rename(unfinished_, name_);
+  }
+  is_finished_ = true;
+}
+
 void writeJson(std::ostream& stream, const nlohmann::ordered_json& json)
 {
   // A file name need not be UTF-8; JSON must be.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <mutex>
@@ -137,7 +136,7 @@ void run(const Options& options, const std::string& command)
     throw std::runtime_error("there are " + std::to_string(photographs.size()) +
                              " photographs, too few to hold out one of " + std::to_string(options.held_out));
   }
-  std::ofstream file = omr::openOutput(options.output);  // before the work, which takes minutes
+  omr::NewFile file(options.output);  // before the work, which takes minutes
   std::ostringstream report;
   report << command << "\n"
          << date() << ", " << learned.size() << " photographs and " << options.scenes
@@ -174,13 +173,10 @@ void run(const Options& options, const std::string& command)
   std::istringstream lines(report.str());
   for (std::string line; std::getline(lines, line);)
   {
-    file << "# " << line << "\n";
+    file.stream() << "# " << line << "\n";
   }
-  omr::writeMarkerNetwork(file, network);
-  if (!file.flush())
-  {
-    throw std::runtime_error("cannot write '" + options.output + "'");
-  }
+  omr::writeMarkerNetwork(file.stream(), network);
+  file.finish();
 }
 
 void declare(CLI::App& app, Options& options)
