@@ -94,8 +94,12 @@ TEST(Settings, yamlErrorsNameFileAndLineAndChangeNothing)
   EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median\n")); }));
   EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median]\n")); }));
   EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, "/nonexistent.yaml"); }));
-  EXPECT_EQ("cannot read the settings file '/': is it a directory?",
-            messageOf([&] { omr::loadSettings(settings, "/"); }));
+  EXPECT_EQ("cannot read the file '/': is it a directory?", messageOf([&] { omr::loadSettings(settings, "/"); }));
+  const std::string twice = writeFile("sobel_threshold: 60\nfilter: none\nsobel_threshold: 100\n");
+  EXPECT_EQ(twice + ":3: the key 'sobel_threshold' stands here twice",
+            messageOf([&] { omr::loadSettings(settings, twice); }));
+  EXPECT_EQ(Settings().sobel_threshold, settings.sobel_threshold);
+  EXPECT_NO_THROW(omr::loadSettings(settings, writeFile("")));
 }
 
 int main(int argc, char** argv)

@@ -91,7 +91,8 @@ std::string getParameter(const Settings& settings, const std::string& name);
 /**
  * Reads tunables from a yaml file: a map of name: value.
  *
- * @throws std::invalid_argument naming file, line and key for anything that setParameter() refuses;
+ * @throws std::invalid_argument naming file, line and key for anything that setParameter() refuses, and for a
+ *         name that stands there twice;
  *         std::runtime_error when the file cannot be read.
  */
 void loadSettings(Settings& settings, const std::string& file);

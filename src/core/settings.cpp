@@ -1,14 +1,13 @@
 #include "outdoor_omr/settings.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <ios>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+
+#include "yaml_file.h"
 
 namespace omr
 {
@@ -232,48 +231,19 @@ std::string getParameter(const Settings& settings, const std::string& name)
 
 void loadSettings(Settings& settings, const std::string& file)
 {
-  YAML::Node root;
-  try
-  {
-    root = YAML::LoadFile(file);
-  }
-  catch (const YAML::BadFile&)
-  {
-    throw std::runtime_error("cannot read the settings file '" + file + "'");
-  }
-  catch (const std::ios_base::failure&)  // of a directory, which opens but does not read
-  {
-    throw std::runtime_error("cannot read the settings file '" + file + "': is it a directory?");
-  }
-  catch (const YAML::Exception& error)
-  {
-    throw std::invalid_argument(file + ": " + error.what());
-  }
-  if (root.IsNull())
-  {
-    return;
-  }
-  if (!root.IsMap())
-  {
-    throw std::invalid_argument(file + ": expected a map of 'name: value'");
-  }
   Settings changed = settings;
-  for (const auto& entry : root)
-  {
-    const std::string where = file + ":" + text(entry.first.Mark().line + 1) + ": ";
+  const auto set = [&](const std::string& name, const YamlFile& value) {
+    const std::string text = value.text("'name: value' with a single value");
     try
     {
-      setParameter(changed, entry.first.as<std::string>(), entry.second.as<std::string>());
-    }
-    catch (const YAML::Exception&)
-    {
-      throw std::invalid_argument(where + "expected 'name: value' with a single value");
+      setParameter(changed, name, text);
     }
     catch (const std::invalid_argument& error)
     {
-      throw std::invalid_argument(where + error.what());
+      value.fail(error.what());
     }
-  }
+  };
+  YamlFile::load(file).forEach("a map of 'name: value'", set);
   settings = changed;
 }
 

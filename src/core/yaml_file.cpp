@@ -74,17 +74,34 @@ YamlFile YamlFile::get(const std::string& key, const std::string& expected) cons
   return {file_, (key_.empty() ? "" : key_ + ".") + key, value, value.Mark().line + 1};
 }
 
-void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string& expected) const
+void YamlFile::forEach(const std::string& expected,
+                       const std::function<void(const std::string& key, const YamlFile& value)>& call) const
 {
-  if (!node_.IsMap())
+  if (!node_.IsMap() && !node_.IsNull())
   {
     fail("expected " + expected);
   }
   std::set<std::string> found;
   for (const auto& entry : node_)
   {
-    const YamlFile at(file_, key_, entry.first, entry.first.Mark().line + 1);
-    const std::string key = at.text("a key");
+    const int line = entry.first.Mark().line + 1;
+    const YamlFile name(file_, key_, entry.first, line);
+    const std::string key = name.text("a key");
+    if (!found.insert(key).second)
+    {
+      name.fail("the key '" + key + "' stands here twice");
+    }
+    call(key, YamlFile(file_, key_, entry.second, line));
+  }
+}
+
+void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string& expected) const
+{
+  if (!node_.IsMap())
+  {
+    fail("expected " + expected);
+  }
+  forEach(expected, [&](const std::string& key, const YamlFile& at) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
     {
       std::string message = "there is no key '";
@@ -97,11 +114,7 @@ void YamlFile::allowOnly(const std::vector<std::string>& keys, const std::string
       }
       at.fail(message);
     }
-    if (!found.insert(key).second)
-    {
-      at.fail("the key '" + key + "' stands here twice");
-    }
-  }
+  });
 }
 
 std::vector<YamlFile> YamlFile::list(const std::string& expected, std::size_t size) const

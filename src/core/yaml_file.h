@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -30,6 +31,11 @@ class YamlFile
 
   /** The value of a map. `expected` says what is to be there if it is not. */
   YamlFile get(const std::string& key, const std::string& expected) const;
+
+  /** Calls with each key and value of a map; what fails there names the map's key and the entry's line. Nothing is a
+   * map of no keys. Refuses keys that stand there twice. */
+  void forEach(const std::string& expected,
+               const std::function<void(const std::string& key, const YamlFile& value)>& call) const;
 
   /** Refuses all keys but these, and keys that stand there twice. */
   void allowOnly(const std::vector<std::string>& keys, const std::string& expected) const;
