@@ -54,7 +54,7 @@ class Locate : public ::testing::Test
     EXPECT_LT(degreesBetween(found.pose.camera_part, pose), 0.1);
   }
 
-  Camera camera_{cameraInfo(), ImageKind::RAW};
+  Camera camera_{cameraInfo(), ImageKind::raw};
   cv::Affine3d pose_ = poseAt(0.1, -0.05, 2, 20, -25, 10);
 };
 

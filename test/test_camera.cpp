@@ -40,7 +40,7 @@ class Models : public ::testing::TestWithParam<std::string>
 
 TEST_P(Models, normalizeInvertsProject)
 {
-  const Camera camera(cameraInfo(GetParam()), ImageKind::RAW);
+  const Camera camera(cameraInfo(GetParam()), ImageKind::raw);
   const std::vector<cv::Point3d> points = pointsInView();
   const std::vector<cv::Point2d> rays = camera.normalize(camera.project(points));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -52,7 +52,7 @@ TEST_P(Models, normalizeInvertsProject)
 
 TEST_P(Models, derivativesAreThoseOfDifferences)
 {
-  const Camera camera(cameraInfo(GetParam()), ImageKind::RAW);
+  const Camera camera(cameraInfo(GetParam()), ImageKind::raw);
   const std::vector<cv::Point3d> points = pointsInView();
   std::vector<cv::Matx23d> derivatives;
   camera.project(points, &derivatives);
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Camera, Models, ::testing::Values("plumb_bob", "rationa
 
 TEST(Camera, rawUsesKAndD)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   EXPECT_EQ(camera.size(), cv::Size(1920, 1080));
   EXPECT_DOUBLE_EQ(camera.focalLength(), 1602.5);
   const cv::Point2d middle = camera.project({{0, 0, 3}}).front();
@@ -94,17 +94,17 @@ TEST(Camera, fisheyeIsEquidistant)
 {
   CameraInfo info = cameraInfo("equidistant");
   info.D = {0, 0, 0, 0};
-  const Camera camera(info, ImageKind::RAW);
+  const Camera camera(info, ImageKind::raw);
   EXPECT_NEAR(camera.project({{1, 0, 2}}).front().x, 950 + 1600 * std::atan(0.5), 1e-9);
   info.distortion_model = "fisheye";
-  EXPECT_NEAR(Camera(info, ImageKind::RAW).project({{1, 0, 2}}).front().x, 950 + 1600 * std::atan(0.5), 1e-9);
+  EXPECT_NEAR(Camera(info, ImageKind::raw).project({{1, 0, 2}}).front().x, 950 + 1600 * std::atan(0.5), 1e-9);
 }
 
 TEST(Camera, rectifiedUsesP)
 {
   CameraInfo info = cameraInfo();
   info.P[3] = -150;  // the right camera of a stereo pair: its own frame is asked for
-  const Camera camera(info, ImageKind::RECTIFIED);
+  const Camera camera(info, ImageKind::rectified);
   const cv::Point2d side = camera.project({{1, 0, 2}}).front();
   EXPECT_NEAR(side.x, 955 + 1500 * 0.5, 1e-9);
   EXPECT_NEAR(side.y, 535, 1e-9);
@@ -116,7 +116,7 @@ TEST(Camera, rectifiedNeedsNoDistortionModel)
   CameraInfo info = cameraInfo();
   info.distortion_model = "";
   info.D.clear();
-  EXPECT_NO_THROW(Camera(info, ImageKind::RECTIFIED));
+  EXPECT_NO_THROW(Camera(info, ImageKind::rectified));
 }
 
 TEST(Camera, strongDistortionIsALens)
@@ -124,22 +124,22 @@ TEST(Camera, strongDistortionIsALens)
   CameraInfo info = cameraInfo();
   info.K = {500, 0, 950, 0, 500, 530, 0, 0, 1};  // 125 degrees wide
   info.D = {-0.32, 0.12, 0.001, -0.001, -0.02};  // does not rise to the corners
-  EXPECT_NO_THROW(Camera(info, ImageKind::RAW));
+  EXPECT_NO_THROW(Camera(info, ImageKind::raw));
   info.distortion_model = "equidistant";  // 230 degrees wide
   info.D = {0.1, -0.02, 0.01, -0.002};
-  EXPECT_NO_THROW(Camera(info, ImageKind::RAW));
+  EXPECT_NO_THROW(Camera(info, ImageKind::raw));
 }
 
 TEST(Camera, emptyD)
 {
   CameraInfo info = cameraInfo();
   info.D.clear();
-  EXPECT_NEAR(Camera(info, ImageKind::RAW).project({{1, 0, 2}}).front().x, 950 + 800, 1e-9);
+  EXPECT_NEAR(Camera(info, ImageKind::raw).project({{1, 0, 2}}).front().x, 950 + 800, 1e-9);
 }
 
 TEST(Camera, noPoints)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   std::vector<cv::Matx23d> derivatives(3);
   EXPECT_TRUE(camera.project({}, &derivatives).empty());
   EXPECT_TRUE(derivatives.empty());
@@ -156,33 +156,33 @@ TEST(Camera, mistakesAreNamed)
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Mistake> mistakes = {
-      {[](CameraInfo& info) { info = CameraInfo(); }, ImageKind::RAW, "width x height is 0 x 0"},
-      {[](CameraInfo& info) { info.width = -3; }, ImageKind::RAW, "width x height is -3 x 1080"},
-      {[](CameraInfo& info) { info.K = {}; }, ImageKind::RAW, "the camera is not calibrated: K[0] = 0"},
-      {[](CameraInfo& info) { info.K = {}; }, ImageKind::RECTIFIED, "the camera is not calibrated: K[0] = 0"},
-      {[](CameraInfo& info) { info.P = {}; }, ImageKind::RECTIFIED, "the camera is not calibrated: P[0] = 0"},
-      {[](CameraInfo& info) { info.K[4] = 0; }, ImageKind::RAW, "K holds the focal length 0"},
-      {[](CameraInfo& info) { info.K[0] = -1600; }, ImageKind::RAW, "K holds the focal length -1600"},
-      {[&](CameraInfo& info) { info.K[0] = nan; }, ImageKind::RAW, "K holds the focal length nan"},
-      {[](CameraInfo& info) { info.K[2] = 9500; }, ImageKind::RAW, "K holds the principal point (9500, 530)"},
-      {[&](CameraInfo& info) { info.P[6] = nan; }, ImageKind::RECTIFIED, "P holds the principal point (955, nan)"},
-      {[](CameraInfo& info) { info.K[1] = 2; }, ImageKind::RAW, "K[1] = 2: expected 0"},
-      {[](CameraInfo& info) { info.distortion_model = "fov"; }, ImageKind::RAW,
+      {[](CameraInfo& info) { info = CameraInfo(); }, ImageKind::raw, "width x height is 0 x 0"},
+      {[](CameraInfo& info) { info.width = -3; }, ImageKind::raw, "width x height is -3 x 1080"},
+      {[](CameraInfo& info) { info.K = {}; }, ImageKind::raw, "the camera is not calibrated: K[0] = 0"},
+      {[](CameraInfo& info) { info.K = {}; }, ImageKind::rectified, "the camera is not calibrated: K[0] = 0"},
+      {[](CameraInfo& info) { info.P = {}; }, ImageKind::rectified, "the camera is not calibrated: P[0] = 0"},
+      {[](CameraInfo& info) { info.K[4] = 0; }, ImageKind::raw, "K holds the focal length 0"},
+      {[](CameraInfo& info) { info.K[0] = -1600; }, ImageKind::raw, "K holds the focal length -1600"},
+      {[&](CameraInfo& info) { info.K[0] = nan; }, ImageKind::raw, "K holds the focal length nan"},
+      {[](CameraInfo& info) { info.K[2] = 9500; }, ImageKind::raw, "K holds the principal point (9500, 530)"},
+      {[&](CameraInfo& info) { info.P[6] = nan; }, ImageKind::rectified, "P holds the principal point (955, nan)"},
+      {[](CameraInfo& info) { info.K[1] = 2; }, ImageKind::raw, "K[1] = 2: expected 0"},
+      {[](CameraInfo& info) { info.distortion_model = "fov"; }, ImageKind::raw,
        "the distortion model 'fov' is not known: expected plumb_bob, rational_polynomial or equidistant"},
-      {[](CameraInfo& info) { info.D.resize(3); }, ImageKind::RAW, "D has 3 values: plumb_bob has 4 or 5"},
-      {[](CameraInfo& info) { info.D.resize(8); }, ImageKind::RAW, "D has 8 values: plumb_bob has 4 or 5"},
-      {[](CameraInfo& info) { info.distortion_model = "rational_polynomial"; }, ImageKind::RAW,
+      {[](CameraInfo& info) { info.D.resize(3); }, ImageKind::raw, "D has 3 values: plumb_bob has 4 or 5"},
+      {[](CameraInfo& info) { info.D.resize(8); }, ImageKind::raw, "D has 8 values: plumb_bob has 4 or 5"},
+      {[](CameraInfo& info) { info.distortion_model = "rational_polynomial"; }, ImageKind::raw,
        "D has 5 values: rational_polynomial has 8, 12 or 14"},
-      {[](CameraInfo& info) { info.distortion_model = "equidistant"; }, ImageKind::RAW,
+      {[](CameraInfo& info) { info.distortion_model = "equidistant"; }, ImageKind::raw,
        "D has 5 values: equidistant has 4"},
-      {[&](CameraInfo& info) { info.D[1] = nan; }, ImageKind::RAW, "D holds a value that is no number"},
-      {[](CameraInfo& info) { info.D[0] = 1e6; }, ImageKind::RAW, "D is no distortion of a lens"},
-      {[](CameraInfo& info) { info.D[0] = -40; }, ImageKind::RAW, "D is no distortion of a lens"},
-      {[](CameraInfo& info) { info.D[2] = 1e300; }, ImageKind::RAW, "D is no distortion of a lens"},
+      {[&](CameraInfo& info) { info.D[1] = nan; }, ImageKind::raw, "D holds a value that is no number"},
+      {[](CameraInfo& info) { info.D[0] = 1e6; }, ImageKind::raw, "D is no distortion of a lens"},
+      {[](CameraInfo& info) { info.D[0] = -40; }, ImageKind::raw, "D is no distortion of a lens"},
+      {[](CameraInfo& info) { info.D[2] = 1e300; }, ImageKind::raw, "D is no distortion of a lens"},
       {[](CameraInfo& info) {
          info.D = {0, 0, 0, -1e8}, info.distortion_model = "equidistant";
        },
-       ImageKind::RAW, "D is no distortion of a lens: it cannot be undone at pixel ("},
+       ImageKind::raw, "D is no distortion of a lens: it cannot be undone at pixel ("},
   };
   for (const Mistake& mistake : mistakes)
   {

@@ -64,16 +64,16 @@ TEST(Deviation, isAlongTheAxesOfTheGoal)
 
 TEST(Deviation, isJudgedWithItsUncertainty)
 {
-  EXPECT_EQ(verdictOn(0, 0, 0.1, 0.01), Verdict::WITHIN);
-  EXPECT_EQ(verdictOn(2.5, 0, 0.1, 0.01), Verdict::WITHIN);
-  EXPECT_EQ(verdictOn(2.9, 0, 0.1, 0.01), Verdict::UNDECIDED);  // +- 0.28 mm
-  EXPECT_EQ(verdictOn(3.1, 0, 0.1, 0.01), Verdict::UNDECIDED);
-  EXPECT_EQ(verdictOn(3.5, 0, 0.1, 0.01), Verdict::OUTSIDE);
-  EXPECT_EQ(verdictOn(0, 0.9, 0.1, 0.01), Verdict::WITHIN);
-  EXPECT_EQ(verdictOn(0, 0.9, 0.1, 0.1), Verdict::UNDECIDED);
-  EXPECT_EQ(verdictOn(0, 1.1, 0.1, 0.01), Verdict::OUTSIDE);
-  EXPECT_EQ(verdictOn(2.9, 1.1, 0.1, 0.01), Verdict::OUTSIDE);
-  EXPECT_EQ(verdictOn(0, 0, 2, 0.01), Verdict::UNDECIDED);  // too uncertain to say yes, whatever it reads
+  EXPECT_EQ(verdictOn(0, 0, 0.1, 0.01), Verdict::within);
+  EXPECT_EQ(verdictOn(2.5, 0, 0.1, 0.01), Verdict::within);
+  EXPECT_EQ(verdictOn(2.9, 0, 0.1, 0.01), Verdict::undecided);  // +- 0.28 mm
+  EXPECT_EQ(verdictOn(3.1, 0, 0.1, 0.01), Verdict::undecided);
+  EXPECT_EQ(verdictOn(3.5, 0, 0.1, 0.01), Verdict::outside);
+  EXPECT_EQ(verdictOn(0, 0.9, 0.1, 0.01), Verdict::within);
+  EXPECT_EQ(verdictOn(0, 0.9, 0.1, 0.1), Verdict::undecided);
+  EXPECT_EQ(verdictOn(0, 1.1, 0.1, 0.01), Verdict::outside);
+  EXPECT_EQ(verdictOn(2.9, 1.1, 0.1, 0.01), Verdict::outside);
+  EXPECT_EQ(verdictOn(0, 0, 2, 0.01), Verdict::undecided);  // too uncertain to say yes, whatever it reads
 }
 
 TEST(PoseEstimate, stepsLeadWhereTheyWereTakenFrom)

@@ -90,7 +90,7 @@ TEST(Pose, exactPixelsGiveTheExactPose)
 {
   for (const View& view : views())
   {
-    const Camera camera(cameraInfo(view.model), ImageKind::RAW);
+    const Camera camera(cameraInfo(view.model), ImageKind::raw);
     cv::RNG random(1);
     const std::vector<PointPair> pairs = pairsOf(innerCorners(view.board), view.pose, camera, 0, random);
     const std::vector<Pose> poses = solvePose(pairs, camera);
@@ -108,7 +108,7 @@ TEST(Pose, trueOneLiesInTheEllipsoidOf95PercentAsOftenAsThat)
   constexpr int RUNS = 1000;  // one standard deviation of the share is 0.7 %
   for (const View& view : views())
   {
-    const Camera camera(cameraInfo(view.model), ImageKind::RAW);
+    const Camera camera(cameraInfo(view.model), ImageKind::raw);
     const std::vector<cv::Point3d> points = innerCorners(view.board);
     cv::RNG random(2);
     int inside = 0;
@@ -133,7 +133,7 @@ TEST(Pose, trueOneLiesInTheEllipsoidOf95PercentAsOftenAsThat)
 
 TEST(Pose, covarianceFollowsTheNoiseThatIsThere)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 2, 20, -25, 10);
   cv::RNG random(3);
   const std::vector<Pose> calm = solvePose(pairsOf(innerCorners(flatBoard()), truth, camera, 0.05, random), camera);
@@ -146,11 +146,11 @@ TEST(Pose, covarianceFollowsTheNoiseThatIsThere)
 
 TEST(Pose, outliersAreRejected)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(4);
   for (const View& view : views())
   {
-    const Camera own(cameraInfo(view.model), ImageKind::RAW);
+    const Camera own(cameraInfo(view.model), ImageKind::raw);
     std::vector<PointPair> pairs = pairsOf(innerCorners(view.board), view.pose, own, view.noise, random);
     const std::vector<Pose> clean = solvePose(pairs, own);
     const std::vector<std::size_t> wrong = {0, 7, 20, 33, 47};  // a tenth, three of them corners of the board
@@ -175,7 +175,7 @@ TEST(Pose, outliersAreRejected)
 
 TEST(Pose, pointsAsGoodAsTheirSigmaSaysAreNoOutliersBesideBetterOnes)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(5);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 3, 20, -25, 10);
   std::vector<PointPair> pairs = pairsOf(innerCorners(flatBoard()), truth, camera, 0.002, random, 0.02);
@@ -191,7 +191,7 @@ TEST(Pose, pointsAsGoodAsTheirSigmaSaysAreNoOutliersBesideBetterOnes)
 
 TEST(Pose, halfOfThePointsWrongGiveNoPoseRatherThanAWrongOne)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(5);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 2, 20, -25, 10);
   std::vector<PointPair> pairs = pairsOf(innerCorners(flatBoard()), truth, camera, 0.05, random);
@@ -207,7 +207,7 @@ TEST(Pose, halfOfThePointsWrongGiveNoPoseRatherThanAWrongOne)
 
 TEST(Pose, wrongPatternGivesNone)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(6);
   std::vector<PointPair> pairs =
       pairsOf(innerCorners(flatBoard()), poseAt(0.1, -0.05, 2, 20, -25, 10), camera, 0.05, random);
@@ -225,7 +225,7 @@ TEST(Pose, wrongPatternGivesNone)
 
 TEST(Pose, flipIsToldWhereTheResidualsTell)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(7);
   const std::vector<cv::Point3d> points = innerCorners(flatBoard(7, 10, 0.04));
   int flips = 0;
@@ -244,7 +244,7 @@ TEST(Pose, flipIsToldWhereTheResidualsTell)
 
 TEST(Pose, flipIsARivalWhereTheyDoNot)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(8);
   const std::vector<cv::Point3d> points = innerCorners(flatBoard(7, 10, 0.01));
   int lost = 0;
@@ -267,7 +267,7 @@ TEST(Pose, flipIsARivalWhereTheyDoNot)
 
 TEST(Pose, fourPoints)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(9);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 2, 30, -25, 10);
   const std::vector<cv::Point3d> points = {{-0.2, -0.2, 0}, {0.2, -0.2, 0}, {0.2, 0.2, 0}, {-0.2, 0.2, 0}};
@@ -279,7 +279,7 @@ TEST(Pose, fourPoints)
 
 TEST(Pose, pointsOfWhichNoneGives)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(10);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 2, 30, -25, 10);
   const std::vector<cv::Point3d> line = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 0}, {0.4, 0, 0}};
@@ -290,7 +290,7 @@ TEST(Pose, pointsOfWhichNoneGives)
 
 TEST(Pose, mistakesAreNamed)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   EXPECT_EQ(messageOf<std::invalid_argument>([&] { solvePose(std::vector<PointPair>(3), camera); }),
             "a pose needs four points at least, not 3");
   std::vector<PointPair> pairs(4);
@@ -301,7 +301,7 @@ TEST(Pose, mistakesAreNamed)
 
 TEST(Pose, refinementFindsItFromNearby)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   cv::RNG random(11);
   const cv::Affine3d truth = poseAt(0.1, -0.05, 2, 20, -25, 10);
   const std::vector<PointPair> pairs = pairsOf(innerCorners(flatBoard()), truth, camera, 0.05, random);

@@ -43,7 +43,7 @@ TEST(TargetPair, ringsCenterIsWhereTheCircleSaysForEveryLens)
 {
   for (const char* model : {"plumb_bob", "rational_polynomial", "equidistant"})
   {
-    const Camera camera(cameraInfo(model), ImageKind::RAW);
+    const Camera camera(cameraInfo(model), ImageKind::raw);
     const PointPair pair = targetPair({"plate", {flatBoard()}, {TARGET}}, TARGET, seen(TARGET, camera), camera);
     EXPECT_EQ(pair.point, TARGET.center);
     EXPECT_DOUBLE_EQ(cv::norm(pair.circle), 5 * 0.016);
@@ -55,7 +55,7 @@ TEST(TargetPair, ringsCenterIsWhereTheCircleSaysForEveryLens)
 
 TEST(TargetPair, countsAsSurelyAsItsRingsArePlaced)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   const Part plate{"plate", {flatBoard()}, {TARGET}};
   Target target = seen(TARGET, camera);
   EXPECT_DOUBLE_EQ(targetPair(plate, TARGET, target, camera).sigma, omr::RING_SIGMA);
@@ -65,7 +65,7 @@ TEST(TargetPair, countsAsSurelyAsItsRingsArePlaced)
 
 TEST(TargetPair, isTheUnsureCenterWhereThePixelsDoNotPlaceTheRings)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   Target target = seen(TARGET, camera);
   target.outermost_deviation = 0;
   const PointPair pair = targetPair({"plate", {flatBoard()}, {TARGET}}, TARGET, target, camera);
@@ -76,7 +76,7 @@ TEST(TargetPair, isTheUnsureCenterWhereThePixelsDoNotPlaceTheRings)
 
 TEST(TargetPair, isTheCenterWhereTheRingsDoNotLieAboutIt)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   Target target = seen(TARGET, camera);
   target.rings.back().center.x -= 0.2F * target.rings.back().size.width / 2;
   const PointPair pair = targetPair({"plate", {flatBoard()}, {TARGET}}, TARGET, target, camera);
@@ -86,7 +86,7 @@ TEST(TargetPair, isTheCenterWhereTheRingsDoNotLieAboutIt)
 
 TEST(TargetPair, isTheCenterWhereNobodyKnowsWhichWayTheTargetFaces)
 {
-  const Camera camera(cameraInfo(), ImageKind::RAW);
+  const Camera camera(cameraInfo(), ImageKind::raw);
   PartCheckerboard pipe = flatBoard();
   pipe.curvature = 4;
   PartTarget raised = TARGET;

@@ -22,8 +22,8 @@ struct CameraInfo
 /** Which image the pixels are of. */
 enum class ImageKind
 {
-  RAW,       ///< as it came: K and D
-  RECTIFIED  ///< as image_proc made it: P, no distortion
+  raw,       ///< as it came: K and D
+  rectified  ///< as image_proc made it: P, no distortion
 };
 
 /**

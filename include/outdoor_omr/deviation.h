@@ -10,9 +10,9 @@ namespace omr
 {
 enum class Verdict
 {
-  UNDECIDED,  ///< the tolerance's bound lies within what the measurement leaves open
-  WITHIN,     ///< within both tolerances, uncertainty included
-  OUTSIDE     ///< beyond one of them, uncertainty included
+  undecided,  ///< the tolerance's bound lies within what the measurement leaves open
+  within,     ///< within both tolerances, uncertainty included
+  outside     ///< beyond one of them, uncertainty included
 };
 
 /** How far a part is from its goal. */
@@ -22,7 +22,7 @@ struct Deviation
   cv::Vec3d rotation;               ///< rotation vector that takes the goal to the part, likewise [rad]
   double position_uncertainty = 0;  ///< 95 %, of the worst direction [m]
   double rotation_uncertainty = 0;  ///< [rad]
-  Verdict verdict = Verdict::UNDECIDED;
+  Verdict verdict = Verdict::undecided;
 };
 
 /** @param estimate in the frame of the goal. */

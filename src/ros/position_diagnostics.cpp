@@ -123,28 +123,28 @@ const std::string& PositionDiagnostics::topicOf(PositionInput input) const
 void PositionDiagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const
 {
   using Input = PositionInput;
-  const bool boards_lack = silence(Input::CHECKERBOARDS) > PATIENCE;
-  const bool targets_lack = silence(Input::TARGETS) > PATIENCE;
+  const bool boards_lack = silence(Input::checkerboards) > PATIENCE;
+  const bool targets_lack = silence(Input::targets) > PATIENCE;
   if (boards_lack && targets_lack)
   {
     status.summaryf(DiagnosticStatus::WARN, "No message on %s and %s for %.0f s: does the detector get images?",
-                    topicOf(Input::CHECKERBOARDS).c_str(), topicOf(Input::TARGETS).c_str(),
-                    std::min(silence(Input::CHECKERBOARDS), silence(Input::TARGETS)));
+                    topicOf(Input::checkerboards).c_str(), topicOf(Input::targets).c_str(),
+                    std::min(silence(Input::checkerboards), silence(Input::targets)));
   }
   else if (boards_lack || targets_lack)
   {
-    const Input silent = boards_lack ? Input::CHECKERBOARDS : Input::TARGETS;
-    const Input other = boards_lack ? Input::TARGETS : Input::CHECKERBOARDS;
+    const Input silent = boards_lack ? Input::checkerboards : Input::targets;
+    const Input other = boards_lack ? Input::targets : Input::checkerboards;
     status.summaryf(DiagnosticStatus::ERROR,
                     "No message on %s for %.0f s, but on %s, so no part has a position: are both of one detector?",
                     topicOf(silent).c_str(), silence(silent), topicOf(other).c_str());
   }
-  else if (silence(Input::CAMERA_INFO) > PATIENCE)
+  else if (silence(Input::camera_info) > PATIENCE)
   {
     status.summaryf(
         DiagnosticStatus::ERROR,
         "No camera_info on %s for %.0f s, so no part has a position: does the camera's driver publish there?",
-        topicOf(Input::CAMERA_INFO).c_str(), silence(Input::CAMERA_INFO));
+        topicOf(Input::camera_info).c_str(), silence(Input::camera_info));
   }
   else if (secondsSince(last_match_) > PATIENCE)
   {
@@ -152,7 +152,7 @@ void PositionDiagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper&
         DiagnosticStatus::ERROR,
         "For %.0f s no camera_info on %s has had the stamp of an image: is it of another camera, or stamped "
         "anew on its way?",
-        secondsSince(last_match_), topicOf(Input::CAMERA_INFO).c_str());
+        secondsSince(last_match_), topicOf(Input::camera_info).c_str());
   }
   else if (!refusal_.empty())
   {

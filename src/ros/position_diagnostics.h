@@ -19,9 +19,9 @@ namespace omr
 {
 enum class PositionInput
 {
-  CHECKERBOARDS,
-  TARGETS,
-  CAMERA_INFO
+  checkerboards,
+  targets,
+  camera_info
 };
 
 /** What the position nodelet gets and gives, told on /diagnostics once a second. Any thread may call. */

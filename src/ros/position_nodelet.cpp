@@ -50,7 +50,7 @@ class PositionNodelet : public CheckedNodelet
     {
       throw std::invalid_argument("parameter ~image_kind: expected raw or rectified, not '" + kind + "'");
     }
-    kind_ = kind == "raw" ? ImageKind::RAW : ImageKind::RECTIFIED;
+    kind_ = kind == "raw" ? ImageKind::raw : ImageKind::rectified;
     tracker_ = std::make_unique<PartTracker>(readTrackerSettings(private_nh));
     publish_tf_ = private_nh.param("publish_tf", true);
     NODELET_INFO("%s, of %s images", read.c_str(), kind.c_str());
@@ -62,9 +62,9 @@ class PositionNodelet : public CheckedNodelet
     checkerboards_.subscribe(nh, "checkerboards", QUEUE);
     targets_.subscribe(nh, "targets", QUEUE);
     camera_info_.subscribe(nh, "camera_info", QUEUE);
-    checkerboards_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::CHECKERBOARDS); });
-    targets_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::TARGETS); });
-    camera_info_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::CAMERA_INFO); });
+    checkerboards_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::checkerboards); });
+    targets_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::targets); });
+    camera_info_.registerCallback([this](const auto& /*m*/) { diagnostics_->came(PositionInput::camera_info); });
     matched_.setReset(true);  // a bag that begins anew: what waits for a match is of the last round, and in the way
     matched_.connectInput(checkerboards_, targets_, camera_info_);
     matched_.registerCallback(&PositionNodelet::receive, this);
@@ -148,7 +148,7 @@ class PositionNodelet : public CheckedNodelet
   }
 
   std::vector<Part> parts_;
-  ImageKind kind_ = ImageKind::RAW;
+  ImageKind kind_ = ImageKind::raw;
   bool publish_tf_ = true;
   std::unique_ptr<PartTracker> tracker_;
   std::string complaint_;  // the last one, which is not repeated

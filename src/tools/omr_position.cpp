@@ -70,7 +70,7 @@ omr::ExitCode locateAll(const Options& options)
   using Clock = std::chrono::steady_clock;
   const omr::Settings settings = options.detector.settings();
   const omr::Camera camera(omr::readCameraInfo(options.camera),
-                           options.rectified ? omr::ImageKind::RECTIFIED : omr::ImageKind::RAW);
+                           options.rectified ? omr::ImageKind::rectified : omr::ImageKind::raw);
   const std::vector<omr::Part> parts = omr::readParts(options.parts);
   omr::Detector detector(options.detector.device);
   std::ofstream file;

@@ -137,7 +137,7 @@ Camera::Camera(const CameraInfo& info, ImageKind kind) : size_(info.width, info.
   {
     throw std::invalid_argument("the camera is not calibrated: K[0] = 0; calibrate it (docs/calibration.md)");
   }
-  if (kind == ImageKind::RECTIFIED)
+  if (kind == ImageKind::rectified)
   {
     matrix_ = cameraMatrix("P", info.P.data(), 4, size_);
     return;
@@ -236,7 +236,7 @@ CameraInfo readCameraInfo(const std::string& file)
   }
   try
   {
-    Camera(info, ImageKind::RAW);
+    Camera(info, ImageKind::raw);
   }
   catch (const std::invalid_argument& error)
   {

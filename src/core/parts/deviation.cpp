@@ -8,18 +8,18 @@ Verdict judge(double deviation, double uncertainty, double tolerance)
 {
   if (deviation + uncertainty <= tolerance)
   {
-    return Verdict::WITHIN;
+    return Verdict::within;
   }
-  return deviation - uncertainty > tolerance ? Verdict::OUTSIDE : Verdict::UNDECIDED;
+  return deviation - uncertainty > tolerance ? Verdict::outside : Verdict::undecided;
 }
 
 Verdict both(Verdict a, Verdict b)
 {
-  if (a == Verdict::OUTSIDE || b == Verdict::OUTSIDE)
+  if (a == Verdict::outside || b == Verdict::outside)
   {
-    return Verdict::OUTSIDE;
+    return Verdict::outside;
   }
-  return a == b ? a : Verdict::UNDECIDED;
+  return a == b ? a : Verdict::undecided;
 }
 }  // namespace
 

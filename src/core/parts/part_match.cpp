@@ -50,10 +50,10 @@ double pixels(double length, const cv::Affine3d& camera_part, const cv::Point3d&
 /** What the colours of a target say of the one that the part has in its place. */
 enum class Colors
 {
-  AGREE,    ///< unknown letters agree with all
-  UNCLEAR,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG or GRGP half
+  agree,    ///< unknown letters agree with all
+  unclear,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG or GRGP half
             ///< hidden
-  CONTRADICT
+  contradict
 };
 
 bool agree(std::string_view seen, std::string_view expected)
@@ -66,23 +66,23 @@ Colors compare(std::string_view seen, std::string_view expected)
 {
   if (agree(seen, expected))
   {
-    return Colors::AGREE;
+    return Colors::agree;
   }
   if (seen.size() > expected.size())
   {
     const bool is_inner = agree(seen.substr(0, expected.size()), expected);
     const bool is_outer = agree(seen.substr(seen.size() - expected.size()), expected);
-    return is_inner || is_outer ? Colors::UNCLEAR : Colors::CONTRADICT;
+    return is_inner || is_outer ? Colors::unclear : Colors::contradict;
   }
   // An outermost ring that is hidden.
   if (seen.size() > 2 && agree(seen, expected.substr(0, seen.size())))
   {
-    return Colors::UNCLEAR;
+    return Colors::unclear;
   }
   // Of rings that run together the innermost letter is a mixture.
   const bool outer_agree = seen.size() > 2 && seen.size() < expected.size() &&
                            agree(seen.substr(1), expected.substr(expected.size() - seen.size() + 1));
-  return outer_agree ? Colors::UNCLEAR : Colors::CONTRADICT;
+  return outer_agree ? Colors::unclear : Colors::contradict;
 }
 
 /** The free target nearest to a pixel; -1 if none lies within reach. */
@@ -119,8 +119,8 @@ void findTargets(const Part& part, const cv::Affine3d& camera_part, const SeenMa
       continue;
     }
     const Colors colors = compare(seen.targets[index].colors, target.colors);
-    contradictions += colors == Colors::CONTRADICT ? 1 : 0;
-    if (colors == Colors::AGREE)
+    contradictions += colors == Colors::contradict ? 1 : 0;
+    if (colors == Colors::agree)
     {
       found.push_back({false,
                        index,
