@@ -243,6 +243,13 @@ TEST(Checkerboards, nothingInPicturesWithoutABoard)
   EXPECT_TRUE(find(cv::Mat::zeros(2, 7, CV_8UC3)).empty());
   EXPECT_TRUE(find(cv::Mat::zeros(16, 16, CV_8UC3)).empty());
   EXPECT_TRUE(find(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(255))).empty());
+  cv::Mat line(1, 200, CV_8UC3);
+  for (int x = 0; x < line.cols; ++x)
+  {
+    line.at<cv::Vec3b>(0, x) = x / 8 % 2 == 0 ? cv::Vec3b(0, 0, 0) : cv::Vec3b(255, 255, 255);
+  }
+  EXPECT_TRUE(find(line).empty());
+  EXPECT_TRUE(find(line.t()).empty());
   cv::Mat noise(240, 320, CV_8UC3);
   cv::RNG random(5);
   random.fill(noise, cv::RNG::UNIFORM, 0, 256);

@@ -131,6 +131,15 @@ TEST(Enlargement, theImagesEdgeCutsThePlace)
   EXPECT_EQ((std::vector<cv::Size>{{60, 48}, {90, 72}, {60, 48}, {90, 72}}), detector.sizes);
 }
 
+TEST(Enlargement, aLargePlaceTakesNoLookFromASmallOne)
+{
+  Markers markers;
+  markers.candidates = {candidateAt({0, 0, 600, 500}), candidateAt({20, 20, 12, 10})};
+  Detector detector;
+  omr::readEnlarged(cv::Mat(800, 900, CV_8UC3, cv::Scalar::all(90)), 1, std::ref(detector), markers);
+  EXPECT_EQ(2U, detector.sizes.size());
+}
+
 TEST(Enlargement, aLargePlaceIsNotEnlarged)
 {
   const cv::Mat image(1080, 1920, CV_8UC3);

@@ -57,6 +57,9 @@ class FillPipeline
   FillPipeline(FillPipeline&&) noexcept;
   FillPipeline& operator=(FillPipeline&&) noexcept;
 
+  /** @throws std::invalid_argument for an image that run() would refuse. */
+  static void checkImage(const cv::Mat& bgr);
+
   /**
    * Runs the pipeline on one image.
    *

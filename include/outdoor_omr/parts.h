@@ -16,7 +16,7 @@ namespace omr
 struct PartCheckerboard
 {
   int rows = 0;               ///< squares along y, 5 to 21
-  int cols = 0;               ///< squares along x, rows to 21
+  int cols = 0;               ///< squares along x, 7 to 21, not less than rows
   double square = 0;          ///< side of a square, along the surface [m]
   double curvature = 0;       ///< 1 / radius of the cylinder it lies on [1/m]; > 0 outside, < 0 inside, 0 a plane
   bool axis_along_x = false;  ///< the cylinder's axis is parallel to x, else to y

@@ -54,6 +54,9 @@ std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& c
  */
 bool refinePose(const std::vector<PointPair>& pairs, const Camera& camera, Pose& pose);
 
+/** Whether two poses are one minimum: they differ by less than 0.01 rad and a thousandth of the distance. */
+bool isSamePose(const cv::Affine3d& a, const cv::Affine3d& b);
+
 /** Whether the residuals do not tell `other` from `best`, a pose of the same pairs. */
 bool isRival(const Pose& best, const Pose& other);
 

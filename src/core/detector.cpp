@@ -113,6 +113,7 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
 Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
 {
   settings.check();
+  FillPipeline::checkImage(bgr);  // before the threads beside the pipeline look at it
   const bool candidates = settings.candidate_mode != CandidateMode::none;
   std::vector<StepTime> times;
   FillPipeline::Outputs outputs;

@@ -15,6 +15,14 @@ auto median(Values values)
   return *middle;
 }
 
+/** The same of the first `count` values, which it sorts in part. */
+template <typename Values>
+auto median(Values& values, int count)
+{
+  std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
+  return values[count / 2];
+}
+
 }  // namespace omr
 
 #endif

@@ -23,19 +23,6 @@ double millisecondsSince(Clock::time_point start)
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-void checkImage(const cv::Mat& bgr)
-{
-  if (bgr.empty() || bgr.dims != 2 || bgr.type() != CV_8UC3)
-  {
-    throw std::invalid_argument("expected an image of type CV_8UC3 that is not empty");
-  }
-  if (bgr.cols > MAX_WIDTH || bgr.total() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-  {
-    throw std::invalid_argument("the image of " + std::to_string(bgr.cols) + " x " + std::to_string(bgr.rows) +
-                                " px is too large: at most 65535 px wide and 2^31 - 1 px");
-  }
-}
-
 AreaWindow areaWindow(const Settings& settings, const cv::Mat& bgr)
 {
   AreaWindow window;
@@ -68,6 +55,19 @@ std::unique_ptr<DeviceFill> openDevice(const std::vector<Device>& devices, std::
   return nullptr;
 }
 }  // namespace
+
+void FillPipeline::checkImage(const cv::Mat& bgr)
+{
+  if (bgr.empty() || bgr.dims != 2 || bgr.type() != CV_8UC3)
+  {
+    throw std::invalid_argument("expected an image of type CV_8UC3 that is not empty");
+  }
+  if (bgr.cols > MAX_WIDTH || bgr.total() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  {
+    throw std::invalid_argument("the image of " + std::to_string(bgr.cols) + " x " + std::to_string(bgr.rows) +
+                                " px is too large: at most 65535 px wide and 2^31 - 1 px");
+  }
+}
 
 class FillPipeline::Implementation
 {

@@ -24,6 +24,11 @@ cv::Rect surroundings(const cv::Rect& box, const cv::Size& image)
   return cv::Rect(box.tl() - margin, box.br() + margin) & cv::Rect({}, image);
 }
 
+bool isSmall(const cv::Rect& place, double factor)
+{
+  return place.area() * factor * factor <= MAX_PIXELS;
+}
+
 /** From an enlargement to the image. The centre of the top-left pixel is (0, 0) in both. */
 struct Back
 {
@@ -105,7 +110,7 @@ bool lookAt(const cv::Mat& bgr, const Candidate& candidate, const std::function<
   const cv::Rect place = surroundings(candidate.box, bgr.size());
   for (const int factor : {2, 3})
   {
-    if (place.area() * static_cast<double>(factor) * factor > MAX_PIXELS)
+    if (!isSmall(place, factor))
     {
       return false;
     }
@@ -132,7 +137,7 @@ void readEnlarged(const cv::Mat& bgr, int looks, const std::function<Markers(con
     {
       return;
     }
-    if (!candidate.read && candidate.cell <= MAX_CELL)
+    if (!candidate.read && candidate.cell <= MAX_CELL && isSmall(surroundings(candidate.box, bgr.size()), 2))
     {
       candidate.read = lookAt(bgr, candidate, detect, markers);
       --looks;

@@ -255,6 +255,7 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
                                             const std::function<void(const std::vector<Checkerboard>&)>& use_first,
                                             std::vector<Checkerboard>* sections)
 {
+  constexpr int MIN_SIDE = 16;  // px of an image that can hold a board
   // Of the allowed looks, those at the saddle points of each level; the second one is for blurred boards: degrade 87 ->
   // 90 of 96, the others for large squares that are soft or faint: degrade 95 -> 96, of 54 boards drawn so 12 -> 22
   // -> 31. Of 268 boards found at the first two none takes more looks in vain, but one with a wrong size; at the others
@@ -267,7 +268,10 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
     CornerLooker looker(frame, static_cast<int>(share * settings.checkerboard_looks));
     findBoards(seeds, looker, map, candidates, found_sections);
   };
-  search(pairNeighbours(frame, regions), 1);
+  if (std::min(frame.raw_grey.rows, frame.raw_grey.cols) >= MIN_SIDE)
+  {
+    search(pairNeighbours(frame, regions), 1);
+  }
   if (use_first)
   {
     use_first(finishAll(candidates, frame, regions));

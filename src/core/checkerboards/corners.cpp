@@ -171,13 +171,7 @@ std::vector<bool> refineCorners(const Frame& frame, Lattice& lattice)
       }
     }
   }
-  for (int i = box.y; i < box.br().y; ++i)
-  {
-    for (int j = box.x; j < box.br().x; ++j)
-    {
-      lattice.at(i, j).found = true;
-    }
-  }
+  lattice.fill();
   return seen;
 }
 

@@ -39,6 +39,19 @@ void Lattice::put(int row, int col, const CornerLook& corner)
   box |= cv::Rect(col, row, 1, 1);
 }
 
+void Lattice::fill()
+{
+  for (int i = box.y; i < box.br().y; ++i)
+  {
+    for (int j = box.x; j < box.br().x; ++j)
+    {
+      LatticeNode& node = at(i, j);
+      count_ += node.found ? 0 : 1;
+      node.found = true;
+    }
+  }
+}
+
 void Lattice::remove(int row, int col)
 {
   LatticeNode& node = at(row, col);

@@ -61,6 +61,9 @@ class Lattice
 
   void put(int row, int col, const CornerLook& corner);
 
+  /** Takes all nodes of the box for found, where they are. */
+  void fill();
+
   /** Takes a corner back; the box stays. */
   void remove(int row, int col);
 

@@ -53,12 +53,6 @@ class LatticeModel
   /** Whether a corner with this residual [px] is none of the surface's. */
   bool isOutlier(double residual) const;
 
-  /** Number of the lattice's corners that are outliers. */
-  int outliers() const
-  {
-    return outliers_;
-  }
-
   /** Median residual [px]. */
   double median() const
   {

@@ -8,8 +8,8 @@ namespace omr
 {
 /**
  * Where a node should be, from the corners found around it: weighted least squares in lattice coordinates, affine,
- * bilinear or quadratic as their number and spread allow, cubic where the lattice bends strongly. No camera model:
- * wide-angle lenses and curved plates are smooth over a few squares as well.
+ * bilinear or quadratic as their number and spread allow: wide-angle lenses and curved plates are smooth over a few
+ * squares as well. Where the lattice bends strongly, by its homography with radial distortion.
  *
  * @param window corners up to this many rows and columns away count, the node's own does not.
  * @return false if there is none, or the lattice folds over itself there.

@@ -23,14 +23,6 @@ struct Reading
   }
 };
 
-bool isSamePose(const cv::Affine3d& a, const cv::Affine3d& b)
-{
-  // Two starts that meet in one minimum differ by less than a millionth, by a thousandth if they leave out other
-  // outliers; turns and flips differ by degrees, sections by a square.
-  const cv::Affine3d difference = a.inv() * b;
-  return cv::norm(difference.rvec()) < 1e-2 && cv::norm(difference.translation()) < 1e-3 * cv::norm(a.translation());
-}
-
 /** Whether `best`, which is not worse, leaves `other` no chance. */
 bool excludes(const PartMatch& best, const PartMatch& other)
 {

@@ -22,8 +22,8 @@ constexpr double RAYLEIGH_MEDIAN = 1.1774;  // median length of a plane vector o
 // outliers beside them (0.2: 57 of 3000 pairs left out in 60 good pictures, 0.5: 5; 1.0 instead of 0.86 mm at 6 m).
 constexpr double MIN_SCALE = 0.5;
 constexpr double MAX_RMS_ERROR = 2;  // [px]; a wrong size or orientation of a board gives tens
-// [rad] and relative to the distance: two starts met in one minimum. They may have left out other outliers, which turns
-// them by a thousandth; a flip turns by degrees.
+// [rad] and relative to the distance: two starts met in one minimum. They differ by less than a millionth, or by a
+// thousandth if they left out other outliers; turns and flips by degrees, sections by a square.
 constexpr double SAME_TURN = 1e-2;
 constexpr double SAME_PLACE = 1e-3;
 // Difference of chi^2 from which the residuals tell two poses apart: by chance the wrong one is the better once in
@@ -94,13 +94,14 @@ void check(const std::vector<PointPair>& pairs)
   }
 }
 
-bool isSame(const Pose& a, const Pose& b)
-{
-  const cv::Affine3d difference = a.camera_part.inv() * b.camera_part;
-  return cv::norm(difference.rvec()) < SAME_TURN &&
-         cv::norm(difference.translation()) < SAME_PLACE * cv::norm(a.camera_part.translation());
-}
 }  // namespace
+
+bool isSamePose(const cv::Affine3d& a, const cv::Affine3d& b)
+{
+  const cv::Affine3d difference = a.inv() * b;
+  return cv::norm(difference.rvec()) < SAME_TURN &&
+         cv::norm(difference.translation()) < SAME_PLACE * cv::norm(a.translation());
+}
 
 bool refinePose(const std::vector<PointPair>& pairs, const Camera& camera, Pose& pose)
 {
@@ -161,7 +162,8 @@ std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& c
     {
       continue;
     }
-    const auto same = std::find_if(poses.begin(), poses.end(), [&](const Pose& known) { return isSame(known, pose); });
+    const auto same = std::find_if(poses.begin(), poses.end(),
+                                   [&](const Pose& known) { return isSamePose(known.camera_part, pose.camera_part); });
     if (same == poses.end())
     {
       poses.push_back(pose);

@@ -16,13 +16,9 @@ namespace omr
 namespace
 {
 constexpr int UNKNOWNS = BENT_UNKNOWNS;
-constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
-
 // At the outermost circle. What is usual counts as much as one deviation of the points.
-constexpr double USUAL_PERSPECTIVE = .05;
 constexpr double USUAL_ANGLE = .6;  // of the bend [rad]
 constexpr double USUAL_NORMAL = .6;
-constexpr double LARGEST_PERSPECTIVE = .35;
 constexpr double LARGEST_ANGLE = 1.25;
 constexpr double LARGEST_NORMAL = 1.6;
 constexpr double LARGEST_ASPECT = 3.5;

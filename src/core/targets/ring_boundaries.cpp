@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "median.h"
 #include "ring_roundness.h"
 #include "ring_slopes.h"
 
@@ -45,12 +46,6 @@ int bits(AngleBins mask)
 }
 
 using Values = std::array<float, ANGLES>;
-
-float median(Values& values, int count)
-{
-  std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
-  return values[count / 2];
-}
 
 /** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
 void addKnown(const std::vector<double>& known, double limit, std::vector<double>& radii)

@@ -16,7 +16,7 @@ struct RingCandidate
 {
   cv::Size image_size;
   Rings rings;
-  std::vector<Boundary> boundaries;            ///< one per radius of rings
+  std::vector<Boundary> boundaries;            ///< one per radius of rings; fewer once readLetters() changed them
   int ring_count = 0;                          ///< of them, that were found without assuming equal rings
   std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
   bool is_spot = false;   ///< grown from a round spot, which has neither regions nor a family of arcs

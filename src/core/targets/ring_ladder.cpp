@@ -139,7 +139,7 @@ void addPartialBoundaries(const RingProfile& profile, const AngularSupport& supp
       const double inner = place == measured.begin() ? 0 : *(place - 1);
       const double least = std::max(PARTIAL_WIDTH, PARTIAL_WIDTH_SHARE * narrowest);
       if (radius - inner < least || *place - radius < least ||
-          share(support.at(radius, std::max(.8, .012 * radius))) < PARTIAL_SUPPORT)
+          share(support.at(radius, edgeTolerance(radius))) < PARTIAL_SUPPORT)
       {
         continue;
       }

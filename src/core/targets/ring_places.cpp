@@ -22,11 +22,12 @@ bool isUndisputed(const RingCandidate& candidate)
          (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE);
 }
 
+}  // namespace
+
 double score(const RingCandidate& candidate)
 {
   return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
 }
-}  // namespace
 
 bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
 {

@@ -19,6 +19,9 @@ bool isInAny(const std::vector<RingCandidate>& candidates, const cv::Point2d& po
 /** Whether one of the candidates contains the other's centre, or the other its centre. */
 bool isInAny(const std::vector<RingCandidate>& candidates, const RingCandidate& other);
 
+/** How much speaks for a candidate: clearness, of each of its boundaries. */
+double score(const RingCandidate& candidate);
+
 /** Of candidates one of which contains the other's centre, the best. */
 std::vector<RingCandidate> bestOfEachPlace(std::vector<RingCandidate> candidates);
 

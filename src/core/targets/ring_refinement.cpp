@@ -14,9 +14,7 @@ namespace omr
 namespace
 {
 constexpr int MAX_STEPS = 8;
-constexpr double LARGEST_PERSPECTIVE = 0.35;  // of h R: beyond it no marker can be read
 constexpr double LARGEST_ASPECT = 5;
-constexpr double GAUGE_WEIGHT = 1e4;  // holds det A at 1, which the radii would else share
 
 class Fit
 {

@@ -18,6 +18,10 @@ struct BoundaryPoint
 /** Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives this.
  */
 constexpr double USUAL_PERSPECTIVE = 0.05;
+constexpr double LARGEST_PERSPECTIVE = 0.35;  ///< beyond it no marker can be read
+
+/** Of a fit: holds det A at 1, which the radii would else share. */
+constexpr double GAUGE_WEIGHT = 1e4;
 
 /** Largest number of boundaries that refineFamily() takes. */
 constexpr int MAX_BOUNDARIES = 16;

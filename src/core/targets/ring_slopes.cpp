@@ -6,6 +6,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 
 #include "lane_median.h"
+#include "median.h"
 
 namespace omr
 {
@@ -19,12 +20,6 @@ constexpr double VALLEY = .75;      // of the slope between two edges, relative 
 constexpr double TURN = .5;         // cosine between the slopes of two edges of a narrow ring
 
 using Values = std::array<float, ANGLES>;
-
-float median(Values& values, int count)
-{
-  std::nth_element(values.begin(), values.begin() + count / 2, values.begin() + count);
-  return values[count / 2];
-}
 
 float brightest(const cv::Vec3f& grey)
 {

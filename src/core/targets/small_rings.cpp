@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "arc_seeds.h"
+#include "ring_places.h"
 
 namespace omr
 {
@@ -106,11 +107,6 @@ bool growEnlarged(const cv::Mat& bgr, RingSeed seed, RingCandidate& candidate)
 bool isSmallTarget(const RingCandidate& candidate, int min_rings)
 {
   return isTarget(candidate, min_rings) && candidate.rings.rms < MAX_RMS + RELATIVE_RMS * candidate.rings.radii.back();
-}
-
-double score(const RingCandidate& candidate)
-{
-  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
 }
 }  // namespace
 

@@ -35,9 +35,9 @@ constexpr int DOUBTFUL_SHARE = 6;          // one of so many
 constexpr double RELATIVE_UNSURE = .0005;  // more, relative to the outer radius
 
 /**
- * Three narrow rings, which lenses and letters have too, are a target only if nearly all can be read; a target of which
- * half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be read: most spots of
- * which less is have another number of rings.
+ * Three narrow rings and fewer, which lenses and letters have too, are a target only if nearly all can be read; a
+ * target of which half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be
+ * read: most spots of which less is have another number of rings.
  */
 bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
 {
@@ -53,7 +53,7 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   }
   const cv::Size2f size = target.rings.back().size;
   const float diameter = std::min(size.width, size.height);
-  if (counted == 3 && diameter < MEDIUM_DIAMETER)
+  if (counted <= 3 && diameter < MEDIUM_DIAMETER)
   {
     const bool is_small = diameter < SMALL_DIAMETER;
     const bool is_all_needed = candidate.is_spot || (is_small && target.colors[0] == '?');
