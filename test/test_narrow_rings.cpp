@@ -2,14 +2,33 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "render_target.h"
 
 namespace
 {
+/** The picture behind a haze that has the colour of its white. @param share of the haze in the light. */
+cv::Mat behindHaze(const cv::Mat& bgr, const cv::Vec3b& white, double share)
+{
+  constexpr double GAMMA = 2.2;
+  cv::Mat levels(1, 256, CV_8UC3);
+  for (int level = 0; level < levels.cols; ++level)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      const double light = share * std::pow(white[c] / 255., GAMMA) + (1 - share) * std::pow(level / 255., GAMMA);
+      levels.at<cv::Vec3b>(0, level)[c] = cv::saturate_cast<uchar>(255 * std::pow(light, 1 / GAMMA));
+    }
+  }
+  cv::Mat hazy;
+  cv::LUT(bgr, levels, hazy);
+  return hazy;
+}
+
 /** Rings of equal width as a camera sees them that halves the resolution of hues, and their profile. */
-omr::RingProfile profileOf(const std::string& colors, double width)
+omr::RingProfile profileOf(const std::string& colors, double width, double haze = 0)
 {
   TargetScene scene;
   scene.size = {80, 80};
@@ -22,7 +41,9 @@ omr::RingProfile profileOf(const std::string& colors, double width)
   }
   scene.sheet_half_side = 35;
   std::vector<uchar> code;
-  cv::imencode(".jpg", renderTarget(scene), code, {cv::IMWRITE_JPEG_QUALITY, 90});
+  const cv::Mat clear = renderTarget(scene);
+  const cv::Mat seen = behindHaze(clear, clear.at<cv::Vec3b>(10, 40), haze);
+  cv::imencode(".jpg", seen, code, {cv::IMWRITE_JPEG_QUALITY, 90});
   omr::RingFamily family;
   family.center = projectedCenter(scene);
   omr::RingProfile profile;
@@ -60,6 +81,21 @@ TEST(NarrowRings, aRingOfDoubleWidthIsTwoWhereNoInkLooksLikeIt)
 TEST(NarrowRings, theMixtureOfTwoInksIsNoRing)
 {
   EXPECT_EQ("GBG", read(profileOf("GBG", 4.7), {2.3, 4.7, 9.4, 14.1}));
+}
+
+TEST(NarrowRings, palenessOfAllRingsIsHazeAndNoWhiteRingsBetweenThem)
+{
+  const std::vector<double> radii = {3.6, 7.2, 10.8, 14.4, 18, 21.6};
+  EXPECT_EQ("RBGPGP", read(profileOf("RBGPGP", 3.6, .25), radii));
+  EXPECT_EQ("GPG", read(profileOf("GPG", 3.6, .25), {3.6, 7.2, 10.8}));
+  for (const std::string colors : {"RBGPGP", "PRGRGB", "GBGPWB"})
+  {
+    for (const double haze : {.2, .35, .5})
+    {
+      const std::string letters = read(profileOf(colors, 3.6, haze), radii);
+      EXPECT_TRUE(letters == colors || letters == "not read") << letters << " instead of " << colors << ", " << haze;
+    }
+  }
 }
 
 TEST(NarrowRings, whatNoInksExplainIsNotRead)

@@ -17,8 +17,9 @@ namespace
 // Deviations of the blur, of brightness and of hue, which colour filter and JPEG widen [px].
 constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
 constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
-constexpr double TINT_DEVIATION = .35;  // of the logarithms of white's red and blue over green
-constexpr double DARKEST = .003;        // linear light
+constexpr std::array<double, 4> HAZE = {.15, .3, .45, .6};  // share of white in each ink
+constexpr double TINT_DEVIATION = .35;                      // of the logarithms of white's red and blue over green
+constexpr double DARKEST = .003;                            // linear light
 
 using Inks = std::array<cv::Vec3d, LETTERS>;
 
@@ -38,7 +39,7 @@ double tintCost(const cv::Vec3d& bgr)
   return blue * blue + red * red;
 }
 
-Inks inksUnder(const cv::Vec3d& white_bgr)
+Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
 {
   Inks inks;
   for (int letter = 0; letter < LETTERS; ++letter)
@@ -46,7 +47,7 @@ Inks inksUnder(const cv::Vec3d& white_bgr)
     cv::Vec3d bgr;
     for (int c = 0; c < 3; ++c)
     {
-      bgr[c] = greyLevelOf(linearLight(white_bgr[c]) * REFLECTANCE[letter][2 - c]);
+      bgr[c] = greyLevelOf(linearLight(white_bgr[c]) * (haze + (1 - haze) * REFLECTANCE[letter][2 - c]));
     }
     inks[letter] = toHue(bgr);
   }
@@ -197,30 +198,39 @@ InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale)
 {
 }
 
+/** Calls with the rest of each blur, and its deviations. */
+template <typename Call>
+void InkFit::forEachBlur(const std::vector<double>& radii, const Call& call) const
+{
+  std::vector<InkRestPart> hues;
+  hues.reserve(HUE_BLUR.size());
+  for (const double of_hue : HUE_BLUR)
+  {
+    hues.emplace_back(source_, 1, of_hue, radii);
+  }
+  for (const double of_brightness : BRIGHTNESS_BLUR)
+  {
+    const InkRestPart brightness(source_, 0, of_brightness, radii);
+    for (std::size_t i = 0; i < hues.size(); ++i)
+    {
+      call(InkRest(brightness, hues[i]), cv::Vec2d(of_brightness, HUE_BLUR[i]));
+    }
+  }
+}
+
 void InkFit::chooseBlur(const std::vector<std::vector<double>>& sets_of_radii)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const std::vector<double>& radii : sets_of_radii)
   {
-    std::vector<InkRestPart> hues;
-    hues.reserve(HUE_BLUR.size());
-    for (const double of_hue : HUE_BLUR)
-    {
-      hues.emplace_back(source_, 1, of_hue, radii);
-    }
-    for (const double of_brightness : BRIGHTNESS_BLUR)
-    {
-      const InkRestPart brightness(source_, 0, of_brightness, radii);
-      for (std::size_t i = 0; i < hues.size(); ++i)
+    forEachBlur(radii, [&](const InkRest& rest_of, const cv::Vec2d& deviations) {
+      const double rest = explain(rest_of, radii, 0).rest;
+      if (rest < least)
       {
-        const double rest = explain(InkRest(brightness, hues[i]), radii).rest;
-        if (rest < least)
-        {
-          least = rest;
-          deviations_ = {of_brightness, HUE_BLUR[i]};
-        }
+        least = rest;
+        deviations_ = deviations;
       }
-    }
+    });
   }
 }
 
@@ -228,10 +238,29 @@ InkFit::Result InkFit::explain(const std::vector<double>& radii) const
 {
   const InkRestPart brightness(source_, 0, deviations_[0], radii);
   const InkRestPart hue(source_, 1, deviations_[1], radii);
-  return explain(InkRest(brightness, hue), radii);
+  Result result = explain(InkRest(brightness, hue), radii, 0);
+  result.deviations = deviations_;
+  return result;
 }
 
-InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& radii) const
+InkFit::Result InkFit::explainInHaze(const std::vector<double>& radii) const
+{
+  Result best;
+  forEachBlur(radii, [&](const InkRest& rest_of, const cv::Vec2d& deviations) {
+    for (const double haze : HAZE)
+    {
+      Result result = explain(rest_of, radii, haze);
+      if (result.rest < best.rest)
+      {
+        best = std::move(result);
+        best.deviations = deviations;
+      }
+    }
+  });
+  return best;
+}
+
+InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& radii, double haze) const
 {
   std::vector<cv::Vec3d> middles;
   for (std::size_t k = 0; k < radii.size(); ++k)
@@ -241,19 +270,19 @@ InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& r
         source_.samples[std::min(source_.samples.size() - 1, static_cast<std::size_t>(middle / source_.step))]);
   }
   const cv::Vec3d& around = source_.samples.back();
-  const Inks inks = inksUnder(fromHue(around));
+  const Inks inks = inksUnder(fromHue(around), haze);
   Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
   sequence.descend();
-  return {sequence.rest() + tintCost(fromHue(around)), sequence.letters()};
+  return {sequence.rest() + tintCost(fromHue(around)), sequence.letters(), haze, {}};
 }
 
-std::vector<double> InkFit::margins(const std::vector<double>& radii, const std::vector<int>& letters) const
+std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& result) const
 {
-  const InkRestPart brightness(source_, 0, deviations_[0], radii);
-  const InkRestPart hue(source_, 1, deviations_[1], radii);
-  const Inks inks = inksUnder(fromHue(source_.samples.back()));
+  const InkRestPart brightness(source_, 0, result.deviations[0], radii);
+  const InkRestPart hue(source_, 1, result.deviations[1], radii);
+  const Inks inks = inksUnder(fromHue(source_.samples.back()), result.haze);
   const InkRest rest(brightness, hue);
-  return Sequence(rest, inks, letters, source_.samples.back()).margins();
+  return Sequence(rest, inks, result.letters, source_.samples.back()).margins();
 }
 
 }  // namespace omr

@@ -21,6 +21,8 @@ class InkFit
   {
     double rest = std::numeric_limits<double>::infinity();  ///< squared deviations of samples and inks
     std::vector<int> letters;                               ///< of the rings, indices into LETTER
+    double haze = 0;                                        ///< share of white in each ink
+    cv::Vec2d deviations;                                   ///< of the blur of brightness, of hue [px]
   };
 
   /**
@@ -36,13 +38,18 @@ class InkFit
   /** @param radii of the boundaries, ascending, not empty [px]. */
   Result explain(const std::vector<double>& radii) const;
 
-  /** Further rest if a ring had another letter, of each ring. @param letters that explain the same radii */
-  std::vector<double> margins(const std::vector<double>& radii, const std::vector<int>& letters) const;
+  /** The same behind haze, which mixes each ink with white: of several hazes and blurs those that explain most. */
+  Result explainInHaze(const std::vector<double>& radii) const;
+
+  /** Further rest if a ring had another letter, of each ring. @param result of the same radii. */
+  std::vector<double> margins(const std::vector<double>& radii, const Result& result) const;
 
  private:
   class Sequence;
 
-  Result explain(const InkRest& rest, const std::vector<double>& radii) const;
+  Result explain(const InkRest& rest, const std::vector<double>& radii, double haze) const;
+  template <typename Call>
+  void forEachBlur(const std::vector<double>& radii, const Call& call) const;
 
   RaySamples source_;
   cv::Vec2d deviations_;  // of the blur of brightness, of hue [px]

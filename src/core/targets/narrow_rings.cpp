@@ -23,6 +23,10 @@ constexpr double LETTER_MARGIN = 3;
 constexpr double COUNT_MARGIN = 3;
 // Of a ring: with 8 of 300 targets 6 less are read. A letter of two circles and a map's sign of three have 12 and more.
 constexpr double MOST_REST = 10;
+// Haze explains what white rings between the others would, and a drawn screw on beige with a rest of 6 for each of four
+// rings. In 400 drawn scenes 67 of the 68 readings behind haze that leave less than this are right.
+constexpr double MOST_HAZY_REST = 5;
+constexpr double HAZE_COST = 10;
 constexpr std::size_t MOST_ADDED = 2;
 constexpr std::size_t MOST_RINGS = 9;
 constexpr std::size_t LEAST_RINGS = 3;
@@ -90,6 +94,11 @@ double unevenness(const Radii& radii)
   }
   return squares - sum * sum / static_cast<double>(radii.size());
 }
+
+double costOf(const InkFit::Result& result, const Radii& radii)
+{
+  return result.rest + RING_COST * static_cast<double>(radii.size()) + WIDTH_COST * unevenness(radii);
+}
 }  // namespace
 
 bool readNarrowRings(const RingProfile& profile, const std::vector<double>& found, double scale, NarrowRings& rings)
@@ -114,7 +123,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
   for (const Radii& radii : sets)
   {
     InkFit::Result result = fit.explain(radii);
-    const double cost = result.rest + RING_COST * static_cast<double>(radii.size()) + WIDTH_COST * unevenness(radii);
+    const double cost = costOf(result, radii);
     double& of_count = least_of_count[std::min(radii.size(), MOST_RINGS + 1)];
     of_count = std::min(of_count, cost);
     if (cost < least)
@@ -125,14 +134,23 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
     }
   }
   least_of_count[std::min(rings.radii.size(), MOST_RINGS + 1)] = std::numeric_limits<double>::infinity();
-  rings.letters.clear();
-  const std::vector<double> margins = fit.margins(rings.radii, best.letters);
-  for (std::size_t k = 0; k < best.letters.size(); ++k)
+  double margin = *std::min_element(least_of_count.begin(), least_of_count.end()) - least;
+  InkFit::Result veiled = fit.explainInHaze(found);
+  const bool is_veiled = costOf(veiled, found) + HAZE_COST < least;
+  if (is_veiled)
   {
-    rings.letters += margins[k] > LETTER_MARGIN ? LETTER[best.letters[k]] : '?';
+    best = std::move(veiled);
+    rings.radii = found;
+    margin = std::numeric_limits<double>::infinity();
   }
-  const double margin = *std::min_element(least_of_count.begin(), least_of_count.end()) - least;
-  return best.rest < MOST_REST * static_cast<double>(rings.radii.size()) && margin > COUNT_MARGIN;
+  rings.letters.clear();
+  for (const double of_letter : fit.margins(rings.radii, best))
+  {
+    rings.letters += of_letter > LETTER_MARGIN ? LETTER[best.letters[rings.letters.size()]] : '?';
+  }
+  const bool is_read = !is_veiled || rings.letters.find('?') == std::string::npos;
+  const double most_rest = is_veiled ? MOST_HAZY_REST : MOST_REST;
+  return is_read && best.rest < most_rest * static_cast<double>(rings.radii.size()) && margin > COUNT_MARGIN;
 }
 
 }  // namespace omr
