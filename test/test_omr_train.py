@@ -28,8 +28,8 @@ class TrainTest(unittest.TestCase):
 
     def train(self, name, *more):
         output = os.path.join(self.folder, name)
-        return output, run(TRAIN, '--scenes', '4', '--epochs', '2', '--rounds', '2', '--hidden', '4', '--output', output,
-                           self.photographs, *more)
+        return output, run(TRAIN, '--scenes', '4', '--epochs', '2', '--rounds', '2', '--hidden', '4',
+                           '--held-out-scenes', '1', '--output', output, self.photographs, *more)
 
     def test_repeats_from_a_seed_and_the_detector_reads_it(self):
         first, done = self.train('a.yaml')

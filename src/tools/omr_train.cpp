@@ -23,6 +23,7 @@ struct Options : omr::TrainingOptions
   std::string network;
   int scenes = 3000;
   int held_out = 4;
+  int held_out_scenes = 750;
   double lost = .03;
   double precision = .9995;
   double enlarged = .5;
@@ -140,12 +141,11 @@ void run(const Options& options, const std::string& command)
   std::ostringstream report;
   report << command << "\n"
          << date() << ", " << learned.size() << " photographs and " << options.scenes
-         << " scenes; held out: " << held.size() << " photographs and "
-         << std::max(1, options.scenes / options.held_out) << " scenes\n";
+         << " scenes; held out: " << held.size() << " photographs and " << options.held_out_scenes << " scenes\n";
   omr::MarkerNetwork network = options.network.empty()
                                    ? asWritten(omr::trainMarkerNetwork({learned, options.scenes}, options))
                                    : omr::loadMarkerNetwork(options.network);
-  const omr::TrainingPictures pictures(held, std::max(1, options.scenes / options.held_out));
+  const omr::TrainingPictures pictures(held, options.held_out_scenes);
   if (network.gate.hidden > 0)
   {
     network.gate.thresholds = omr::gateThresholds(network.gate, heldOutMarkers(pictures), options.lost);
@@ -204,6 +204,10 @@ void declare(CLI::App& app, Options& options)
   app.add_option("--held-out", options.held_out, "of so many photographs one is held out")
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
+  app.add_option("--held-out-scenes", options.held_out_scenes,
+                 "rendered scenes that are held out; the more, the less the photographs tell what false boxes are")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--precision", options.precision,
                  "precision that chooses the thresholds, as if every second window showed a marker")
       ->capture_default_str()
