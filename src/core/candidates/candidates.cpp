@@ -5,6 +5,7 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "marker_box.h"
 #include "outdoor_omr/haar_features.h"
 
 namespace omr
@@ -237,12 +238,11 @@ void markRead(const cv::Size& size, const std::vector<Checkerboard>& checkerboar
   const cv::Rect image({}, size);  // what is cut by it has corners, or half a ring, outside
   for (const Checkerboard& board : checkerboards)
   {
-    const std::vector<cv::Point2f> corners(board.corners.begin(), board.corners.end());
-    markRead(cv::boundingRect(corners) & image, MarkerKind::checkerboard, candidates);
+    markRead(boxOf(board) & image, MarkerKind::checkerboard, candidates);
   }
   for (const Target& target : targets)
   {
-    markRead(target.rings.back().boundingRect() & image, MarkerKind::target, candidates);
+    markRead(boxOf(target) & image, MarkerKind::target, candidates);
   }
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "marker_box.h"
+#include "resized_part.h"
+
 namespace omr
 {
 namespace
@@ -29,55 +32,6 @@ bool isSmall(const cv::Rect& place, double factor)
   return place.area() * factor * factor <= MAX_PIXELS;
 }
 
-/** From an enlargement to the image. The centre of the top-left pixel is (0, 0) in both. */
-struct Back
-{
-  int factor;
-  cv::Point2d origin;
-
-  template <typename Point>
-  Point operator()(const Point& point) const
-  {
-    using Number = decltype(point.x);
-    return {static_cast<Number>((point.x + .5) / factor - .5 + origin.x),
-            static_cast<Number>((point.y + .5) / factor - .5 + origin.y)};
-  }
-};
-
-void moveBack(Checkerboard& board, const Back& back)
-{
-  const auto move = [&back](auto& points) {
-    for (cv::Point2f& point : points)
-    {
-      point = back(point);
-    }
-  };
-  move(board.corners);
-  move(board.inner_corners);
-  move(board.squares);
-}
-
-void moveBack(Target& target, const Back& back)
-{
-  target.center = back(target.center);
-  for (cv::RotatedRect& ring : target.rings)
-  {
-    ring.center = back(ring.center);
-    ring.size = ring.size / static_cast<float>(back.factor);
-  }
-  // outermost_deviation keeps its number: the enlargement has more pixels, which say no more than those of the image.
-}
-
-cv::Rect boxOf(const Checkerboard& board)
-{
-  return cv::boundingRect(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()));
-}
-
-cv::Rect boxOf(const Target& target)
-{
-  return target.rings.back().boundingRect();
-}
-
 bool overlaps(const cv::Rect& box, const Markers& markers)
 {
   const auto hit = [&box](const auto& marker) { return (box & boxOf(marker)).area() > 0; };
@@ -87,13 +41,13 @@ bool overlaps(const cv::Rect& box, const Markers& markers)
 
 /** Adds what suits the candidate and lies over no marker that is known. @return whether there was any. */
 template <typename Marker>
-bool addFound(std::vector<Marker>& found, const Candidate& candidate, const Back& back, const Markers& known,
+bool addFound(std::vector<Marker>& found, const Candidate& candidate, const ResizedPart& part, const Markers& known,
               std::vector<Marker>& markers)
 {
   bool any = false;
   for (Marker& marker : found)
   {
-    moveBack(marker, back);
+    moveToImage(part, marker);
     const cv::Rect box = boxOf(marker);
     if ((box & candidate.box).area() >= FILLED * candidate.box.area() && !overlaps(box, known))
     {
@@ -117,9 +71,9 @@ bool lookAt(const cv::Mat& bgr, const Candidate& candidate, const std::function<
     cv::Mat enlarged;
     cv::resize(bgr(place), enlarged, {}, factor, factor, cv::INTER_CUBIC);
     Markers found = detect(enlarged);
-    const Back back = {factor, place.tl()};
-    const bool board = addFound(found.checkerboards, candidate, back, markers, markers.checkerboards);
-    const bool target = addFound(found.targets, candidate, back, markers, markers.targets);
+    const ResizedPart part = {static_cast<double>(factor), place.tl()};
+    const bool board = addFound(found.checkerboards, candidate, part, markers, markers.checkerboards);
+    const bool target = addFound(found.targets, candidate, part, markers, markers.targets);
     if (board || target)
     {
       return true;

@@ -4,14 +4,13 @@
 #include <utility>
 
 #include "arc_seeds.h"
+#include "resized_part.h"
 #include "ring_places.h"
 
 namespace omr
 {
 namespace
 {
-const cv::Point2d HALF(.5, .5);  // a pixel: the centre of the first is (0, 0)
-
 constexpr int PIECE = 10;         // half the side of the spot's part whose edges give the family [px]
 constexpr int PIECE_MARGIN = 7;   // of what is enlarged to look at them [px]
 constexpr int SURROUNDINGS = 36;  // half the side of what is enlarged to grow them [px]
@@ -39,55 +38,45 @@ struct Enlarged
   Enlarged(const cv::Mat& bgr, const cv::Point2d& center, int half_side)
   {
     const cv::Rect place = squareAround(center, half_side) & cv::Rect({}, bgr.size());
-    origin = place.tl();
+    part = {FACTOR, place.tl()};
     cv::resize(bgr(place), image, {}, FACTOR, FACTOR, cv::INTER_CUBIC);
   }
 
-  cv::Point2d toImage(const cv::Point2d& point) const
-  {
-    return (point + HALF) / FACTOR - HALF + cv::Point2d(origin);
-  }
-
-  cv::Point2d fromImage(const cv::Point2d& point) const
-  {
-    return (point - cv::Point2d(origin) + HALF) * FACTOR - HALF;
-  }
-
   cv::Mat image;
-  cv::Point origin;
+  ResizedPart part;
 };
 
 /** The family of a spot's edges. */
 bool findSeed(const cv::Mat& bgr, const RoundSpot& spot, RingSeed& seed)
 {
-  const Enlarged part(bgr, spot.center, PIECE + PIECE_MARGIN);
-  EdgelMap map(part.image);
+  const Enlarged enlarged(bgr, spot.center, PIECE + PIECE_MARGIN);
+  EdgelMap map(enlarged.image);
   Region piece;
-  piece.box = squareAround(part.fromImage(spot.center), PIECE * FACTOR);
+  piece.box = squareAround(enlarged.part.fromImage(spot.center), PIECE * FACTOR);
   double votes = 0;
   if (!findArcSeed(map, piece, seed, votes) || votes < LEAST_VOTES)
   {
     return false;
   }
-  seed.family.center = part.toImage(seed.family.center);
+  seed.family.center = enlarged.part.toImage(seed.family.center);
   seed.radius /= FACTOR;
   return true;
 }
 
 bool growEnlarged(const cv::Mat& bgr, RingSeed seed, RingCandidate& candidate)
 {
-  const Enlarged part(bgr, seed.family.center, SURROUNDINGS);
-  EdgelMap map(part.image);
-  seed.family.center = part.fromImage(seed.family.center);
+  const Enlarged enlarged(bgr, seed.family.center, SURROUNDINGS);
+  EdgelMap map(enlarged.image);
+  seed.family.center = enlarged.part.fromImage(seed.family.center);
   seed.radius *= FACTOR;
-  if (!growCandidate(map, part.image, seed, false, candidate))
+  if (!growCandidate(map, enlarged.image, seed, false, candidate))
   {
     return false;
   }
   candidate.image_size = bgr.size();
   candidate.profile_scale = FACTOR;
   RingFamily& family = candidate.rings.family;
-  family.center = part.toImage(family.center);
+  family.center = enlarged.part.toImage(family.center);
   family.hx *= FACTOR;
   family.hy *= FACTOR;
   family.hz *= FACTOR;

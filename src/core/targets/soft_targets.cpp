@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "edgels.h"
+#include "resized_part.h"
 #include "ring_candidate.h"
 #include "ring_lookahead.h"
 #include "ring_places.h"
@@ -17,22 +18,6 @@ namespace
 // Of 20 drawn targets with rings of 20 to 100 px and a blur of a tenth to three tenths of that the image shows 8, this
 // reduction 11 more.
 constexpr int REDUCTION = 4;
-constexpr double SHIFT = (REDUCTION - 1) / 2.;  // of the centre of a block of pixels
-
-cv::Point2d toImage(const cv::Point2d& reduced)
-{
-  return reduced * REDUCTION + cv::Point2d(SHIFT, SHIFT);
-}
-
-void enlarge(Target& target)
-{
-  target.center = toImage(target.center);
-  for (cv::RotatedRect& ring : target.rings)
-  {
-    ring.center = cv::Point2f(toImage(ring.center));
-    ring.size = ring.size * static_cast<float>(REDUCTION);
-  }
-}
 }  // namespace
 
 std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings,
@@ -58,7 +43,7 @@ std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checke
   std::vector<Target> targets;
   for (Target& target : readTargets({}, bestOfEachPlace(std::move(candidates)), min_rings))
   {
-    enlarge(target);
+    moveToImage({1. / REDUCTION, {}}, target);
     // Wheels have soft rings, too, but no letters: the picture of one among 647 that are not of the evaluation.
     const bool is_read = target.colors.find('?') == std::string::npos;
     if (is_read && !isOnBoard(target.center, boards))
