@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """omr_sheet as its users call it. Usage: test_omr_sheet.py PATH_OF_OMR_SHEET"""
+import glob
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,6 +12,7 @@ import xml.etree.ElementTree
 import cv2
 
 OMR_SHEET = None
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 class OmrSheet(unittest.TestCase):
@@ -44,6 +47,17 @@ class OmrSheet(unittest.TestCase):
         self.assertRegex(refused.stderr, '^omr_sheet: the checkerboard 7 x 10 .* does not fit')
         self.assertFalse(os.path.exists(self.path('a.svg')))
         self.assertEqual(0, self.run_sheet(*board, '--landscape', 'a.svg').returncode)
+
+    def test_what_the_guides_ask_for_fits_its_page(self):
+        commands = []
+        for guide in glob.glob(os.path.join(ROOT, 'docs', '*.md')) + [os.path.join(ROOT, 'README.md')]:
+            with open(guide) as file:
+                text = re.sub(r'\s+', ' ', file.read())
+            commands += re.findall(r'\bomr_sheet (--[^`|#]*?\.(?:pdf|png|svg))\b', text)
+        self.assertTrue(any('--checkerboard 7x10 --square 25' in command for command in commands), commands)
+        for command in commands:
+            done = self.run_sheet(*command.split())
+            self.assertEqual(0, done.returncode, command + ': ' + done.stderr)
 
     def test_says_that_a_board_is_ambiguous(self):
         result = self.run_sheet('--checkerboard', '5x7', '--square', '15', 'a.svg')
