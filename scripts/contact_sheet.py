@@ -149,9 +149,12 @@ def write(pictures, data, folder):
         failed += [(picture, failure, markers) for kind in kinds for failure in failures(*kind)]
     failed.sort(key=lambda item: item[1].is_minor)
 
-    tiles = [make_tile(cv2.imread(os.path.join(data, picture['set'], picture['image'])), failure, markers,
-                       '%s %s' % (os.path.splitext(picture['image'])[0], picture['factors']['filter']))
-             for picture, failure, markers in failed[:MOST_TILES]]
+    tiles = []
+    for picture, failure, markers in failed[:MOST_TILES]:
+        pixels = cv2.imread(os.path.join(data, picture['set'], picture['image']))
+        if pixels is not None:  # omr_detect could not read it either, and said so
+            tiles.append(make_tile(pixels, failure, markers, '%s %s' % (os.path.splitext(picture['image'])[0],
+                                                                        picture['factors']['filter'])))
     path = os.path.join(folder, 'failures.jpg')
     if tiles:
         cv2.imwrite(path, arrange(tiles), [cv2.IMWRITE_JPEG_QUALITY, 85])

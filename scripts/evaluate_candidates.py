@@ -19,6 +19,7 @@ MIN_PX = 3.
 COVERED = .5  # of the marker's box
 ON_MARKER = .1  # of the candidate's box
 MIN_VISIBLE = .5
+UNREADABLE = {'candidates': [], 'steps_ms': {'candidates': 0, 'enlargements': 0}}  # of a picture without an answer
 
 
 def box_of(points):
@@ -112,7 +113,7 @@ def main():
         keys = ('checkerboard', 'target', 'missed', 'false', 'candidates ms', 'enlargements ms')
         report = {key: [] for key in keys}
         for picture in pictures:
-            judge(picture, answers[picture['image']], report)
+            judge(picture, answers.get(picture['image'], UNREADABLE), report)
         print(row(name, len(pictures), report), flush=True)
         with open(os.path.join(arguments.output, name + '.txt'), 'w') as file:
             file.write('\n'.join(['missed:'] + report['missed'] + ['false:'] + report['false']) + '\n')

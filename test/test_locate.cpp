@@ -1,4 +1,5 @@
 #include "locate_fixture.h"
+#include "outdoor_omr/pose_estimate.h"
 
 using omr::Part;
 using omr::Sighting;
@@ -54,6 +55,33 @@ TEST_F(Locate, boardAloneIsAmbiguousByHalfATurn)
   const cv::Affine3d b = sightings[0].candidates[1].pose.camera_part;
   EXPECT_NEAR(degreesBetween(a, b), 180, 0.001);
   EXPECT_LT(millimetresBetween(a, b), 1e-3);
+}
+
+TEST_F(Locate, theCovarianceIsThatOfThePartsOriginHoweverFarTheBoard)
+{
+  constexpr int VIEWS = 100;
+  std::vector<double> sums;  // of chi square: errors over what is stated
+  for (const cv::Vec3d& place : {cv::Vec3d(0, 0, 0), cv::Vec3d(-1, 0.2, 0)})
+  {
+    omr::PartCheckerboard board = flatBoard(7, 10);
+    board.pose = cv::Affine3d::Identity().translate(place);
+    const Part part{"plate", {board}, {}};
+    const cv::Affine3d pose = pose_ * board.pose.inv();
+    double sum = 0;
+    for (int seed = 1; seed <= VIEWS; ++seed)
+    {
+      PartView view(camera_, 0.03, static_cast<std::uint64_t>(seed));
+      view.add(part, pose);
+      const std::vector<Sighting> sightings = locate(view, {part});
+      ASSERT_EQ(sightings.size(), 1U);
+      const omr::Pose& found = sightings[0].candidates[0].pose;
+      const cv::Vec6d step = omr::stepBetween(pose, found.camera_part);
+      sum += step.dot(found.covariance.inv() * step);
+    }
+    sums.push_back(sum);
+  }
+  EXPECT_GT(sums[0], 0.1 * VIEWS);
+  EXPECT_NEAR(sums[1], sums[0], 0.01 * sums[0]);
 }
 
 TEST_F(Locate, boardWithOneOrientationNeedsNoTarget)

@@ -89,6 +89,20 @@ class OmrCalibrate(unittest.TestCase):
         expected = cv2.projectPoints(grid, cv2.Rodrigues(turn)[0], shift, plate.CAMERA, None)[0].reshape(-1, 2)
         np.testing.assert_allclose(np.array([line[1:3] for line in first], float), expected, atol=.3)
 
+    def test_a_calibration_that_cannot_be_written_is_a_failure(self):
+        for option in ('--output', '--mrcal'):
+            done = run('--checkerboard', '7x10', '--square', '.02', option, '/dev/full', *self.images)
+            self.assertEqual(2, done.returncode, option)
+            self.assertIn('disk full', done.stderr)
+
+    def test_names_that_the_files_cannot_hold(self):
+        done = run('--checkerboard', '7x10', '--square', '.02', '--name', 'cell 2: left', *self.images)
+        self.assertEqual(2, done.returncode)
+        self.assertIn('letters, digits and _', done.stderr)
+        done = run('--checkerboard', '7x10', '--square', '.02', '--mrcal', '/dev/null', 'sp ace/left.jpg')
+        self.assertEqual(2, done.returncode)
+        self.assertIn('sp ace/left.jpg', done.stderr)
+
     def test_either_side_first(self):
         turned = run('--checkerboard', '10x7', '--square', '0.02', *self.images)
         self.assertEqual((0, ''), (turned.returncode, turned.stderr))

@@ -79,6 +79,28 @@ class OmrDetect(unittest.TestCase):
         sizes = [cv2.imread(self.path('out', name)).shape[1] for name in ('photo.png', 'photo-2.png', 'photo-3.png')]
         self.assertEqual([64, 100, 120], sizes)
 
+    def test_overlays_take_no_images_place(self):
+        with open(self.image, 'rb') as file:
+            before = file.read()
+        done = run('--overlay', self.path('a'), self.image)
+        self.assertEqual(2, done.returncode)
+        self.assertIn('would overwrite the image', done.stderr)
+        with open(self.image, 'rb') as file:
+            self.assertEqual(before, file.read())
+
+    def test_a_name_that_no_file_can_have_is_told_and_the_others_are_processed(self):
+        done = run('--json', '-', self.path('x' * 300 + '.png'), self.image)
+        self.assertEqual(1, done.returncode)
+        self.assertEqual(1, len(done.stdout.splitlines()))
+
+    def test_lost_output_is_a_failure(self):
+        for arguments in ([self.image], ['--json', '-', self.image], ['--list-parameters']):
+            with open('/dev/full', 'w') as full:
+                done = subprocess.run([OMR_DETECT, *arguments], stdout=full, stderr=subprocess.PIPE,
+                                      universal_newlines=True, timeout=120)
+            self.assertEqual(2, done.returncode, arguments)
+            self.assertIn('disk full', done.stderr)
+
     def test_an_unreadable_image_is_told_and_the_others_are_processed(self):
         broken = self.path('broken.jpg')
         with open(broken, 'wb') as file:

@@ -81,15 +81,15 @@ class TrainTest(unittest.TestCase):
         self.assertEqual(0, done.returncode, done.stderr)
         with open(file) as stream:
             before = stream.read()
-        empty = os.path.join(self.folder, 'empty')
-        os.makedirs(empty)
-        done = run(TRAIN, '--output', file, empty)
+        done = self.train('a.yaml', '--network', 'absent.yaml')[1]
         self.assertEqual(2, done.returncode)
         with open(file) as stream:
             self.assertEqual(before, stream.read())
-        done = self.train('a.yaml', '--network', file)[1]
+        os.symlink('a.yaml', os.path.join(self.folder, 'link.yaml'))
+        done = self.train('link.yaml', '--network', file)[1]
         self.assertEqual(0, done.returncode, done.stderr)
-        self.assertEqual(['a.yaml', 'empty', 'photographs'], sorted(os.listdir(self.folder)))
+        self.assertEqual(['a.yaml', 'link.yaml', 'photographs'], sorted(os.listdir(self.folder)))
+        self.assertTrue(os.path.islink(os.path.join(self.folder, 'link.yaml')))
 
     def test_the_detector_refuses_another_file(self):
         file = os.path.join(self.folder, 'a.yaml')

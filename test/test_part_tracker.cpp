@@ -13,7 +13,7 @@ constexpr double SIGMA = 0.001;  // [m], [rad]
 
 TrackedPart partAt(const std::string& name, double x, double y = 0)
 {
-  return {name, {cv::Affine3d::Identity().translate({x, y, 1}), cv::Matx66d::eye() * (SIGMA * SIGMA)}, 0};
+  return {name, {cv::Affine3d::Identity().translate({x, y, 1}), cv::Matx66d::eye() * (SIGMA * SIGMA)}, 0, 0};
 }
 
 std::vector<std::uint32_t> idsOf(PartTracker& tracker, std::vector<TrackedPart> parts, double time)
@@ -28,6 +28,25 @@ std::vector<std::uint32_t> idsOf(PartTracker& tracker, std::vector<TrackedPart> 
 }
 
 using Ids = std::vector<std::uint32_t>;
+
+TEST(PartTracker, copiesAreNumberedFromOneAgainWhenOthersHaveGone)
+{
+  PartTracker tracker({1, 2, 0});
+  const auto copiesOf = [&](std::vector<TrackedPart> parts, double time) {
+    tracker.track(parts, time);
+    Ids copies;
+    for (const TrackedPart& part : parts)
+    {
+      copies.push_back(part.copy);
+    }
+    return copies;
+  };
+  EXPECT_EQ(copiesOf({partAt("plate", 0), partAt("plate", 0.5), partAt("pipe", 0)}, 0), (Ids{1, 2, 1}));
+  EXPECT_EQ(copiesOf({partAt("plate", 0.5)}, 1), Ids{2});
+  EXPECT_EQ(copiesOf({partAt("plate", 0.5), partAt("plate", 9)}, 1.5), (Ids{2, 3}));  // the first may come back
+  EXPECT_EQ(copiesOf({partAt("plate", 0.5), partAt("plate", 20)}, 3), (Ids{2, 1}));
+  EXPECT_EQ(idsOf(tracker, {partAt("plate", 20)}, 3.1), Ids{5});
+}
 
 TEST(PartTracker, copiesKeepTheirNumbersInAnyOrder)
 {

@@ -159,6 +159,9 @@ TEST(Parts, mistakesAreNamed)
        ":3: parts[0]: the key 'name' stands here twice"},
       {"parts:\n- {name: a, checkerboards: [" + BOARD + "]}\n- {name: a, checkerboards: [" + BOARD + "]}",
        ":3: parts[1].name: another part has the name 'a' already"},
+      {"parts:\n- {name: bolt_1, checkerboards: [" + BOARD + "]}\n- {name: bolt, copies: 2, checkerboards: [" + BOARD +
+           "]}",
+       ":3: parts[1].name: 'bolt' and 'bolt_1' would share a TF frame: that of a copy is NAME_NUMBER"},
       {"parts:\n- name: plate\n  copies: 0\n  checkerboards: [" + BOARD + "]",
        ":3: parts[0].copies: expected the number of like parts that may be in view at once, 1 to 100, not '0'"},
       {partWith("[]"), ":3: parts[0].checkerboards: expected a list of one checkerboard or more"},

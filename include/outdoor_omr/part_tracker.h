@@ -14,7 +14,8 @@ struct TrackedPart
 {
   std::string name;
   PoseEstimate estimate;
-  std::uint32_t id = 0;  ///< given by the tracker
+  std::uint32_t id = 0;    ///< given by the tracker
+  std::uint32_t copy = 0;  ///< likewise: the smallest number, from 1, that no other of its name has that it remembers
 };
 
 struct TrackerSettings
@@ -28,8 +29,8 @@ struct TrackerSettings
  * Follows parts from image to image: the same part keeps its number, which no other ever gets. Nothing is predicted:
  * a part is where it was last seen, within what it can have moved since.
  *
- * Smoothing never lags behind a move: a pose that the noise of two measurements does not explain, at odds of 1000 to 1,
- * starts anew.
+ * Smoothing does not lag behind a move that one image shows: a pose that the noise of two measurements does not
+ * explain, at odds of 1000 to 1, starts anew. Behind a creep it does, by its speed times the time constant.
  */
 class PartTracker
 {
@@ -52,6 +53,7 @@ class PartTracker
     bool taken = false;  // by a part of this image
   };
 
+  std::uint32_t freeCopy(const std::string& name) const;
   double reach(const Track& track, double time) const;
   void forget(double time);
   void smooth(const Track& track, TrackedPart& part, double time) const;

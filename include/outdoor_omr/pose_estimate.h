@@ -19,6 +19,9 @@ struct PoseEstimate
 /** The same estimate in another frame. @param other_frame X_other = other_frame * X_frame. */
 PoseEstimate transformed(const PoseEstimate& estimate, const cv::Affine3d& other_frame);
 
+/** The same estimate for another point of the part. @param origin X_part = origin * X_new [m]. */
+PoseEstimate movedTo(const PoseEstimate& estimate, const cv::Affine3d& origin);
+
 /** Where a part is in the frame of another, both measured in one frame, independently of each other. */
 PoseEstimate relativeTo(const PoseEstimate& other, const PoseEstimate& part);
 

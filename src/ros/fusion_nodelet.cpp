@@ -106,11 +106,11 @@ class FusionNodelet : public CheckedNodelet
     return (ros::SteadyTime::now() - start_).toSec();
   }
 
-  void publish(const std::vector<ViewCollector::Views>& collections)
+  void publish(const std::vector<ViewCollector::Collection>& collections)
   {
-    for (const ViewCollector::Views& views : collections)
+    for (const ViewCollector::Collection& collection : collections)
     {
-      const std::string error = caught([&] { fuseAndPublish(views); });
+      const std::string error = caught([&] { fuseAndPublish(collection); });
       if (!error.empty() && error != complaint_)
       {
         NODELET_ERROR("No position from these cameras: %s", error.c_str());
@@ -119,15 +119,15 @@ class FusionNodelet : public CheckedNodelet
     }
   }
 
-  void fuseAndPublish(const ViewCollector::Views& views)
+  void fuseAndPublish(const ViewCollector::Collection& collection)
   {
     std::vector<CameraView> cameras;
     std_msgs::Header header;
     header.frame_id = frame_;
+    header.stamp = collection.stamp;
     unplaced_.clear();
-    for (const outdoor_omr::PartArray& view : views)
+    for (const outdoor_omr::PartArray& view : collection.views)
     {
-      header.stamp = std::max(header.stamp, view.header.stamp);
       // A camera that TF cannot place costs what it alone sees.
       const std::string error = caught([&] { cameras.push_back({view, placeOf(view.header)}); });
       unplaced_ += (error.empty() || unplaced_.empty() ? "" : "; ") + error;
@@ -172,7 +172,7 @@ class FusionNodelet : public CheckedNodelet
     for (std::size_t camera = 0; camera < topics_.size(); ++camera)
     {
       const double silence = collector_->silence(camera, now());
-      const bool is_too_late = collector_->isTooLate(camera);
+      const bool is_too_late = silence <= PATIENCE && collector_->isTooLate(camera);
       status.addf(topics_[camera], "%.1f s ago%s", silence, is_too_late ? ", too late" : "");
       is_any_heard = is_any_heard || silence <= PATIENCE;
       silent += silence > PATIENCE ? " " + topics_[camera] : "";
@@ -208,7 +208,7 @@ class FusionNodelet : public CheckedNodelet
     else if (!too_late.empty())
     {
       status.summary(DiagnosticStatus::WARN, "Not fused, as the views came too late:" + too_late +
-                                                 ". Raise ~patience; are the clocks of the computers the same?");
+                                                 ". Is ~patience too short, or do the computers' clocks differ?");
     }
     else if (!silent.empty())
     {

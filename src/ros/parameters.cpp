@@ -38,6 +38,26 @@ std::string text(const XmlRpc::XmlRpcValue& value)
   }
 }
 
+/** Numbers and truth values that a yaml file has as text, as "60" and 1e-3, are ignored by dynamic_reconfigure. */
+void setTyped(const ros::NodeHandle& private_nh, const std::string& name, const Settings& settings)
+{
+#define OMR_BOOL(known, value, group, description) \
+  if (name == #known)                              \
+    private_nh.setParam(name, settings.known);
+#define OMR_INT(known, value, min, max, group, unit, description) \
+  if (name == #known)                                             \
+    private_nh.setParam(name, settings.known);
+#define OMR_DOUBLE(known, value, min, max, group, unit, description) \
+  if (name == #known)                                                \
+    private_nh.setParam(name, settings.known);
+#define OMR_CHOICE(known, type, value, values, group, description)
+#include "outdoor_omr/settings.def"
+#undef OMR_BOOL
+#undef OMR_INT
+#undef OMR_DOUBLE
+#undef OMR_CHOICE
+}
+
 std::vector<std::string> tunables()
 {
   std::vector<std::string> names;
@@ -92,7 +112,10 @@ std::vector<std::string> checkParameters(const ros::NodeHandle& private_nh)
     else if (!contains(OTHER_PARAMETERS, name))
     {
       Settings settings;
-      const std::string error = caught([&] { setParameter(settings, name, text(entry.second)); });
+      const std::string error = caught([&] {
+        setParameter(settings, name, text(entry.second));
+        setTyped(private_nh, name, settings);
+      });
       if (!error.empty())
       {
         complaints.push_back(private_nh.resolveName(name) + ": " + error + "; the default " +

@@ -40,7 +40,7 @@ Marker marker(const outdoor_omr::PartArray& parts, const outdoor_omr::Part& part
 {
   Marker result;
   result.header = parts.header;
-  result.ns = part.name + "_" + std::to_string(part.id) + "/" + what;
+  result.ns = part.name + "_" + std::to_string(part.copy) + "/" + what;
   result.type = type;
   result.action = Marker::ADD;
   result.pose = part.pose.pose;
@@ -211,12 +211,13 @@ void track(outdoor_omr::PartArray& parts, PartTracker& tracker)
   std::vector<TrackedPart> tracked;
   for (const outdoor_omr::Part& part : parts.parts)
   {
-    tracked.push_back({part.name, fromMessage(part.pose), 0});
+    tracked.push_back({part.name, fromMessage(part.pose), 0, 0});
   }
   tracker.track(tracked, parts.header.stamp.toSec());
   for (std::size_t i = 0; i < tracked.size(); ++i)
   {
     parts.parts[i].id = tracked[i].id;
+    parts.parts[i].copy = tracked[i].copy;
     parts.parts[i].pose = toMessage(tracked[i].estimate);
   }
 }
@@ -225,7 +226,7 @@ std::string frameOf(const outdoor_omr::Part& part, const std::vector<Part>& desc
 {
   const auto has_copies = [&](const Part& candidate) { return candidate.name == part.name && candidate.copies > 1; };
   const bool numbered = std::any_of(descriptions.begin(), descriptions.end(), has_copies);
-  return numbered ? part.name + "_" + std::to_string(part.id) : part.name;
+  return numbered ? part.name + "_" + std::to_string(part.copy) : part.name;
 }
 
 geometry_msgs::TransformStamped toTransform(const std_msgs::Header& header, const outdoor_omr::Part& part,

@@ -33,7 +33,7 @@ outdoor_omr::PartArray toMessage(const std_msgs::Header& header, const std::vect
 /** Gives the parts that are certain their numbers, and smoothed poses where the tracker smooths. */
 void track(outdoor_omr::PartArray& parts, PartTracker& tracker);
 
-/** The frame of the part in TF: its name, and of one that may have copies in view NAME_ID. */
+/** The frame of the part in TF: its name, and of one that may have copies in view NAME_COPY. */
 std::string frameOf(const outdoor_omr::Part& part, const std::vector<Part>& descriptions);
 
 /** The transform from the frame of the parts to that of the part. */

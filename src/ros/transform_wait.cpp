@@ -11,8 +11,9 @@ geometry_msgs::TransformStamped TransformWait::lookup(const std::string& target,
                                                       const ros::Time& time)
 {
   constexpr double POLL = 0.002;  // [s]
+  const auto in_vain = in_vain_.find({target, source});
   bool is_there = buffer_.canTransform(target, source, time);
-  if (!is_there && isWorthIt(target, source, time))
+  if (!is_there && (in_vain == in_vain_.end() || newest(target, source) != in_vain->second))
   {
     const ros::WallTime end = ros::WallTime::now() + patience_;
     while (!is_there && ros::WallTime::now() < end)
@@ -20,17 +21,20 @@ geometry_msgs::TransformStamped TransformWait::lookup(const std::string& target,
       ros::WallDuration(POLL).sleep();
       is_there = buffer_.canTransform(target, source, time);
     }
+    if (!is_there)
+    {
+      in_vain_[{target, source}] = newest(target, source);
+    }
   }
-  is_there ? void(in_vain_.erase({target, source})) : void(in_vain_.insert({target, source}));
   return buffer_.lookupTransform(target, source, time);
 }
 
-/** Whether what comes within the patience may reach the time. */
-bool TransformWait::isWorthIt(const std::string& target, const std::string& source, const ros::Time& time) const
+/** Time of the newest transform; 0 if there is none. */
+ros::Time TransformWait::newest(const std::string& target, const std::string& source) const
 {
-  const ros::Duration patience(patience_.toSec());
-  return in_vain_.count({target, source}) == 0 ||
-         (time > ros::Time() + patience && buffer_.canTransform(target, source, time - patience));
+  return buffer_.canTransform(target, source, ros::Time())
+             ? buffer_.lookupTransform(target, source, ros::Time()).header.stamp
+             : ros::Time();
 }
 
 }  // namespace omr

@@ -5,7 +5,7 @@
 #include <ros/time.h>
 #include <tf2_ros/buffer.h>
 
-#include <set>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -13,16 +13,16 @@ namespace omr
 {
 /**
  * Transforms, waited for in wall time: tf2's own wait never ends while simulated time stands still, as in a paused bag.
- * Frames that were waited for in vain are waited for again only once TF is so near to the time asked for that the wait
- * can end well: a frame that is unknown or no longer sent costs one wait, and not one of each message, behind which all
- * later ones would queue.
+ * Frames that were waited for in vain are waited for again only once TF has told something newer of them: a frame that
+ * is unknown or no longer sent costs one wait, and not one of each message, behind which all later ones would queue.
  */
 class TransformWait
 {
  public:
   /**
    * @param buffer   filled by a thread of its own; outlives this.
-   * @param patience longest wait.
+   * @param patience longest wait; longer than the period at which TF is sent, or else what comes next is not waited
+   * for.
    */
   TransformWait(const tf2_ros::Buffer& buffer, const ros::WallDuration& patience);
 
@@ -30,11 +30,11 @@ class TransformWait
   geometry_msgs::TransformStamped lookup(const std::string& target, const std::string& source, const ros::Time& time);
 
  private:
-  bool isWorthIt(const std::string& target, const std::string& source, const ros::Time& time) const;
+  ros::Time newest(const std::string& target, const std::string& source) const;
 
   const tf2_ros::Buffer& buffer_;
   ros::WallDuration patience_;
-  std::set<std::pair<std::string, std::string>> in_vain_;  // what was waited for last without success
+  std::map<std::pair<std::string, std::string>, ros::Time> in_vain_;  // what TF knew of these when the wait ended
 };
 
 }  // namespace omr

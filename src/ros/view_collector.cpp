@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace omr
 {
 namespace
 {
-constexpr double ALIVE = 1;  // [s] since it was last heard; a camera below 1 Hz is not waited for
-
-double apart(const ros::Time& stamp, const ros::Time& other)
-{
-  return std::abs((stamp - other).toSec());
-}
+constexpr double ALIVE = 1;            // [s] since it was last heard, or
+constexpr double ALIVE_INTERVALS = 3;  // so many times that between its last views: cameras may be triggered by hand
+constexpr double BACK = 1;             // [s] by which stamps go back where they begin anew
+constexpr double HOLD = 1;             // [s] for which a wrong stamp, or what is on its way still, can do harm
 }  // namespace
 
 ViewCollector::ViewCollector(std::size_t cameras, double tolerance, double patience)
@@ -21,43 +20,44 @@ ViewCollector::ViewCollector(std::size_t cameras, double tolerance, double patie
 {
 }
 
-std::vector<ViewCollector::Views> ViewCollector::add(std::size_t camera, const outdoor_omr::PartArray& view, double now)
+std::vector<ViewCollector::Collection> ViewCollector::add(std::size_t camera, const outdoor_omr::PartArray& view,
+                                                          double now)
 {
-  const ros::Time& stamp = view.header.stamp;
-  std::vector<Views> given;
+  const double stamp = view.header.stamp.toSec();
+  std::vector<Collection> given;
   Camera& own = cameras_[camera];
-  if (own.heard >= 0 && stamp <= own.newest)
+  const bool goes_back = own.heard >= 0 && stamp < own.newest - BACK;
+  if (goes_back && !own.is_behind)
   {
-    given = takeFirst(open_.size());
-    given_.reset();
-    for (Camera& other : cameras_)
-    {
-      other.newest = ros::Time();
-    }
+    given = takeFirst(open_.size(), now);
+    beginAnew(now);
   }
+  own.is_behind = own.is_behind && !goes_back && now - begun_at_ < HOLD;
+  own.interval = own.heard >= 0 ? now - own.heard : 0;
   own.heard = now;
-  own.newest = stamp;
-  own.is_too_late = given_ && stamp <= *given_;
-  if (own.is_too_late)
+  const bool is_repeated = !goes_back && own.newest > 0 && stamp <= own.newest;
+  const bool is_old = given_at_ >= 0 && now - given_at_ < HOLD && stamp <= given_ && stamp > 0;
+  own.is_too_late = is_repeated || is_old;
+  if (own.is_too_late || own.is_behind)
   {
     return given;
   }
-  Collection& collection = collectionFor(camera, stamp, now);
-  collection.answered[camera] = true;
-  collection.views.push_back(view);
+  own.newest = stamp;
+  Open& open = collectionFor(camera, view.header.stamp, now);
+  open.answered[camera] = true;
+  open.views.push_back(view);
   // Of one that is done earlier ones are, too: a camera's views come in order.
-  const auto last_done =
-      std::find_if(open_.rbegin(), open_.rend(), [&](const Collection& open) { return isDone(open, now); });
-  std::vector<Views> done = takeFirst(static_cast<std::size_t>(open_.rend() - last_done));
+  const auto last_done = std::find_if(open_.rbegin(), open_.rend(), [&](const Open& any) { return isDone(any, now); });
+  std::vector<Collection> done = takeFirst(static_cast<std::size_t>(open_.rend() - last_done), now);
   std::move(done.begin(), done.end(), std::back_inserter(given));
   return given;
 }
 
-std::vector<ViewCollector::Views> ViewCollector::takeLate(double now)
+std::vector<ViewCollector::Collection> ViewCollector::takeLate(double now)
 {
   const auto last_late =
-      std::find_if(open_.rbegin(), open_.rend(), [&](const Collection& open) { return now - open.since > patience_; });
-  return takeFirst(static_cast<std::size_t>(open_.rend() - last_late));
+      std::find_if(open_.rbegin(), open_.rend(), [&](const Open& open) { return now - open.since > patience_; });
+  return takeFirst(static_cast<std::size_t>(open_.rend() - last_late), now);
 }
 
 double ViewCollector::silence(std::size_t camera, double now) const
@@ -70,14 +70,25 @@ bool ViewCollector::isTooLate(std::size_t camera) const
   return cameras_[camera].is_too_late;
 }
 
-/** The nearest in time that the camera is not in; a new one where none is within the tolerance. */
-ViewCollector::Collection& ViewCollector::collectionFor(std::size_t camera, const ros::Time& stamp, double now)
+void ViewCollector::beginAnew(double now)
 {
+  begun_at_ = now;
+  given_at_ = -1;
+  for (Camera& camera : cameras_)
+  {
+    camera.is_behind = camera.heard >= 0;
+  }
+}
+
+/** The nearest in time that the camera is not in; a new one where none is within the tolerance. */
+ViewCollector::Open& ViewCollector::collectionFor(std::size_t camera, const ros::Time& stamp, double now)
+{
+  const auto apart = [&](const Open& open) { return std::abs(open.stamp.toSec() - stamp.toSec()); };
   auto nearest = open_.end();
   for (auto open = open_.begin(); open != open_.end(); ++open)
   {
-    if (!open->answered[camera] && apart(open->stamp, stamp) <= tolerance_ &&
-        (nearest == open_.end() || apart(open->stamp, stamp) < apart(nearest->stamp, stamp)))
+    if (!open->answered[camera] && apart(*open) <= tolerance_ &&
+        (nearest == open_.end() || apart(*open) < apart(*nearest)))
     {
       nearest = open;
     }
@@ -86,17 +97,21 @@ ViewCollector::Collection& ViewCollector::collectionFor(std::size_t camera, cons
   {
     return *nearest;
   }
-  const auto later =
-      std::find_if(open_.begin(), open_.end(), [&](const Collection& open) { return open.stamp > stamp; });
-  return *open_.insert(later, Collection{stamp, now, std::vector<bool>(cameras_.size(), false), {}});
+  const auto later = std::find_if(open_.begin(), open_.end(), [&](const Open& open) { return open.stamp > stamp; });
+  return *open_.insert(later, Open{{stamp, {}}, now, std::vector<bool>(cameras_.size(), false)});
 }
 
-bool ViewCollector::isDone(const Collection& collection, double now) const
+bool ViewCollector::lives(const Camera& camera, double now) const
+{
+  return camera.heard >= 0 && now - camera.heard < std::max(ALIVE, ALIVE_INTERVALS * camera.interval);
+}
+
+bool ViewCollector::isDone(const Open& open, double now) const
 {
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera)
   {
-    const bool lives = cameras_[camera].heard >= 0 && now - cameras_[camera].heard < ALIVE;
-    if (lives && !collection.answered[camera] && cameras_[camera].newest <= collection.stamp)
+    const bool has_passed = !cameras_[camera].is_behind && cameras_[camera].newest > open.stamp.toSec();
+    if (!open.answered[camera] && !has_passed && lives(cameras_[camera], now))
     {
       return false;
     }
@@ -104,16 +119,14 @@ bool ViewCollector::isDone(const Collection& collection, double now) const
   return true;
 }
 
-std::vector<ViewCollector::Views> ViewCollector::takeFirst(std::size_t count)
+std::vector<ViewCollector::Collection> ViewCollector::takeFirst(std::size_t count, double now)
 {
-  std::vector<Views> taken;
+  std::vector<Collection> taken;
   for (std::size_t i = 0; i < count; ++i)
   {
-    for (const outdoor_omr::PartArray& view : open_[i].views)
-    {
-      given_ = std::max(given_.value_or(view.header.stamp), view.header.stamp);
-    }
-    taken.push_back(std::move(open_[i].views));
+    given_ = open_[i].stamp.toSec();
+    given_at_ = now;
+    taken.push_back(std::move(open_[i]));
   }
   open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(count));
   return taken;

@@ -3,7 +3,6 @@
 
 #include <outdoor_omr/PartArray.h>
 
-#include <optional>
 #include <vector>
 
 namespace omr
@@ -17,7 +16,11 @@ namespace omr
 class ViewCollector
 {
  public:
-  using Views = std::vector<outdoor_omr::PartArray>;
+  struct Collection
+  {
+    ros::Time stamp;  ///< of the view that came first
+    std::vector<outdoor_omr::PartArray> views;
+  };
 
   /**
    * @param cameras   number of them.
@@ -27,16 +30,16 @@ class ViewCollector
   ViewCollector(std::size_t cameras, double tolerance, double patience);
 
   /**
-   * A view that is not newer than what was given already comes too late and is left out; unless its camera's own stamps
-   * go back, as those of a bag that begins anew: then so does all this.
+   * A view that is not newer than what was given within the last second comes too late and is left out. Stamps that go
+   * back by more than a second, as those of a bag that begins anew, begin everything anew.
    *
    * @param camera index. @param now of a steady clock that starts at 0 [s].
    * @return collections that are done, the older first.
    */
-  std::vector<Views> add(std::size_t camera, const outdoor_omr::PartArray& view, double now);
+  std::vector<Collection> add(std::size_t camera, const outdoor_omr::PartArray& view, double now);
 
   /** @return collections that waited longer than the patience, and those of earlier times; the older first. */
-  std::vector<Views> takeLate(double now);
+  std::vector<Collection> takeLate(double now);
 
   /** Seconds since a camera was last heard; since the zero of the clock if it never was. */
   double silence(std::size_t camera, double now) const;
@@ -47,28 +50,32 @@ class ViewCollector
  private:
   struct Camera
   {
-    double heard = -1;  // negative: never
-    ros::Time newest;   // stamp of its last view
+    double heard = -1;       // negative: never
+    double interval = 0;     // between its last two views
+    double newest = 0;       // stamp of its last view
+    bool is_behind = false;  // of those before the last beginning, whose last views may come still
     bool is_too_late = false;
   };
 
-  struct Collection
+  struct Open : Collection
   {
-    ros::Time stamp;  // of the first view
-    double since;     // when it came
+    double since;  // when the first view came
     std::vector<bool> answered;
-    Views views;
   };
 
-  Collection& collectionFor(std::size_t camera, const ros::Time& stamp, double now);
-  bool isDone(const Collection& collection, double now) const;
-  std::vector<Views> takeFirst(std::size_t count);
+  void beginAnew(double now);
+  Open& collectionFor(std::size_t camera, const ros::Time& stamp, double now);
+  bool lives(const Camera& camera, double now) const;
+  bool isDone(const Open& open, double now) const;
+  std::vector<Collection> takeFirst(std::size_t count, double now);
 
   double tolerance_;
   double patience_;
   std::vector<Camera> cameras_;
-  std::vector<Collection> open_;    // the older first
-  std::optional<ros::Time> given_;  // newest stamp that was given
+  std::vector<Open> open_;  // the older first
+  double given_ = 0;        // newest stamp that was given
+  double given_at_ = -1;    // when; negative: never
+  double begun_at_ = 0;
 };
 
 }  // namespace omr

@@ -178,6 +178,14 @@ Calibration calibrate(const std::vector<CalibrationView>& views, double square, 
   return calibration;
 }
 
+std::string nameProblem(const std::string& name)
+{
+  const bool is_good = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_';
+  });
+  return is_good ? "" : "a camera's name has letters, digits and _ only, not '" + name + "'";
+}
+
 void writeCameraInfo(std::ostream& stream, const CameraInfo& info, const std::string& camera_name)
 {
   stream << std::setprecision(10) << "image_width: " << info.width << "\nimage_height: " << info.height

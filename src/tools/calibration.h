@@ -40,6 +40,9 @@ struct Calibration
 Calibration calibrate(const std::vector<CalibrationView>& views, double square, const cv::Size& size,
                       const std::string& model);
 
+/** Why a text cannot be a camera's name; empty: it can. */
+std::string nameProblem(const std::string& name);
+
 /** Writes the yaml file that camera_info_manager reads. */
 void writeCameraInfo(std::ostream& stream, const CameraInfo& info, const std::string& camera_name);
 

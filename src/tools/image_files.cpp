@@ -8,18 +8,19 @@ namespace omr
 {
 cv::Mat readImage(const std::string& name)
 {
-  if (!std::filesystem::exists(name))
+  std::error_code error;
+  if (!std::filesystem::exists(name, error))
   {
-    throw std::invalid_argument("there is no such file");
+    throw std::invalid_argument(error ? error.message() : "there is no such file");
   }
   cv::Mat image;
   try
   {
     image = cv::imread(name, cv::IMREAD_COLOR);
   }
-  catch (const cv::Exception& error)
+  catch (const cv::Exception& exception)
   {
-    throw std::invalid_argument(error.err);
+    throw std::invalid_argument(exception.err);
   }
   if (image.empty())
   {
@@ -28,9 +29,9 @@ cv::Mat readImage(const std::string& name)
   return image;
 }
 
-std::ofstream openOutput(const std::string& name)
+std::ofstream openOutput(const std::string& name, std::ios::openmode mode)
 {
-  std::ofstream file(name);
+  std::ofstream file(name, mode);
   if (!file)
   {
     throw std::runtime_error("cannot write '" + name + "'");
@@ -38,14 +39,21 @@ std::ofstream openOutput(const std::string& name)
   return file;
 }
 
-NewFile::NewFile(const std::string& name)
-    : name_(name),
-      unfinished_(std::filesystem::exists(name) && !std::filesystem::is_regular_file(name) ? name : name + ".part"),
-      stream_(unfinished_)
+NewFile::NewFile(const std::string& name) : name_(name)
 {
+  std::error_code error;
+  const bool exists = std::filesystem::exists(name, error);
+  const bool is_device = exists && (!std::filesystem::is_regular_file(name, error) || name.rfind("/dev/", 0) == 0);
+  if (exists && !is_device)
+  {
+    openOutput(name, std::ios::app);                           // what must not be written stays
+    name_ = std::filesystem::canonical(name, error).string();  // a link stays one
+  }
+  unfinished_ = is_device ? name : name_ + ".part";
+  stream_.open(unfinished_);
   if (!stream_)
   {
-    throw std::runtime_error("cannot write '" + unfinished_ + "'");
+    throw std::runtime_error("cannot write '" + name + "'");
   }
 }
 

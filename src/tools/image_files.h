@@ -13,7 +13,7 @@ namespace omr
 cv::Mat readImage(const std::string& name);
 
 /** @throws std::runtime_error if it cannot be written. */
-std::ofstream openOutput(const std::string& name);
+std::ofstream openOutput(const std::string& name, std::ios::openmode mode = std::ios::out);
 
 /** A file that has its name only once it is finished: until then what was there stays. */
 class NewFile

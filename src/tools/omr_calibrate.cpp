@@ -105,12 +105,28 @@ void printReport(const Session& session, const omr::Calibration& calibration)
   }
 }
 
+/** mrcal's table has its columns between spaces. */
+void checkMrcalNames(const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    if (name.find_first_of(" \t\n") != std::string::npos || name.front() == '#')
+    {
+      throw std::invalid_argument("--mrcal takes no file names with spaces or # in front, as '" + name + "'");
+    }
+  }
+}
+
 omr::ExitCode calibrateAll(const Options& options)
 {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR);  // an unreadable image is told once, below
   const omr::Settings settings = options.detector.settings();
   cv::Size squares = omr::parseCheckerboard(options.checkerboard);
   squares = {std::max(squares.width, squares.height), std::min(squares.width, squares.height)};
+  if (!options.mrcal.empty())
+  {
+    checkMrcalNames(options.images);
+  }
   omr::Detector detector(options.detector.device);
   Session session;
   omr::ExitCode result = omr::SUCCESS;
@@ -138,15 +154,17 @@ omr::ExitCode calibrateAll(const Options& options)
   }
   if (!options.mrcal.empty())
   {
-    std::ofstream file = omr::openOutput(options.mrcal);
-    omr::writeMrcalCorners(file, session.views);
+    omr::NewFile file(options.mrcal);
+    omr::writeMrcalCorners(file.stream(), session.views);
+    file.finish();
   }
   const omr::Calibration calibration = omr::calibrate(session.views, options.square, session.size, options.model);
   printReport(session, calibration);
   if (!options.output.empty())
   {
-    std::ofstream file = omr::openOutput(options.output);
-    omr::writeCameraInfo(file, calibration.info, options.name);
+    omr::NewFile file(options.output);
+    omr::writeCameraInfo(file.stream(), calibration.info, options.name);
+    file.finish();
   }
   return result;
 }
@@ -158,7 +176,8 @@ void declare(CLI::App& app, Options& options)
   app.add_option("--checkerboard", options.checkerboard, "ROWSxCOLS squares, as 7x10")->required();
   app.add_option("--square", options.square, "side of a square [m]")->required()->check(CLI::Range(0.001, 1.0));
   app.add_option("--model", options.model, "plumb_bob (default), rational_polynomial or equidistant");
-  app.add_option("--name", options.name, "of the camera, in the file");
+  app.add_option("--name", options.name, "of the camera, in the file: letters, digits and _")
+      ->check(CLI::Validator(omr::nameProblem, "NAME"));
   app.add_option("--output", options.output, "yaml file for camera_info_manager");
   app.add_option("--mrcal", options.mrcal, "file for the corners, for mrcal-calibrate-cameras --corners-cache");
   options.detector.addTo(app);

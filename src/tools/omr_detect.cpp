@@ -55,6 +55,24 @@ std::vector<std::string> overlayNames(const std::vector<std::string>& images)
   return names;
 }
 
+/** An overlay may not take the place of an image. @throws std::invalid_argument */
+void checkOverlays(const std::string& folder, const std::vector<std::string>& names,
+                   const std::vector<std::string>& images)
+{
+  for (const std::string& name : names)
+  {
+    for (const std::string& image : images)
+    {
+      std::error_code error;  // where one of them is not there, they are not the same
+      if (std::filesystem::equivalent(folder + "/" + name, image, error))
+      {
+        throw std::invalid_argument("the overlay would overwrite the image '" + image +
+                                    "'; name another folder for --overlay");
+      }
+    }
+  }
+}
+
 void createFolder(const std::string& name)
 {
   std::error_code error;
@@ -166,6 +184,10 @@ omr::ExitCode detectAll(const Options& options)
   }
   std::ostream& json = file.is_open() ? file : std::cout;
   const std::vector<std::string> overlay_names = overlayNames(options.images);
+  if (!options.overlay.empty())
+  {
+    checkOverlays(options.overlay, overlay_names, options.images);
+  }
   omr::ExitCode result = omr::SUCCESS;
   for (std::size_t i = 0; i < options.images.size(); ++i)
   {

@@ -184,6 +184,7 @@ void declare(CLI::App& app, Options& options)
   app.description("Trains the network that finds candidates, from photographs without markers and rendered markers.");
   app.add_option("--output", options.output, "yaml file for the network")->required();
   app.add_option("--scenes", options.scenes, "rendered scenes to learn from")
+      ->take_last()  // scripts/train names it
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   app.add_option("--hidden", options.hidden, "units of the hidden layer")

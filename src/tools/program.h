@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 namespace omr
@@ -35,7 +36,12 @@ int runProgram(const std::string& name, int argc, char** argv, const Declare& de
     {
       return app.exit(error) == 0 ? SUCCESS : FAILED;
     }
-    return run(options);
+    const ExitCode code = run(options);
+    if (!std::cout.flush())
+    {
+      throw std::runtime_error("cannot write to standard output; is the disk full?");
+    }
+    return code;
   }
   catch (const std::exception& error)
   {

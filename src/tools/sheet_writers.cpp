@@ -217,6 +217,11 @@ cv::Mat toImage(const Sheet& sheet, double dpi)
     throw std::invalid_argument("the resolution is 20 to 1200 dpi");
   }
   const double scale = dpi / MM_PER_INCH;
+  constexpr double MOST_PIXELS = 1e9;
+  if (scale * scale * sheet.page.area() > MOST_PIXELS)
+  {
+    throw std::invalid_argument("the picture would have more than 1e9 pixels: lower --dpi, or write .svg or .pdf");
+  }
   cv::Mat image(cvRound(scale * sheet.page.height), cvRound(scale * sheet.page.width), CV_8UC3, cv::Scalar::all(255));
   for (const Shape& shape : sheet.shapes)
   {

@@ -184,6 +184,8 @@ TEST_F(Reconfigure, refusesWhatTheSettingsDoNotAdmit)
 TEST_F(Reconfigure, usesGoodParametersAtTheStartAndNamesTheBadOnes)
 {
   ros::param::set("/detector/sobel_threshold", 60);
+  ros::param::set("/detector/sobel_floor", "30");  // as a yaml file has what stands in quotes, or 1e-3
+  ros::param::set("/detector/detect_targets", "false");
   ros::param::set("/detector/sobel_treshold", 70);
   ros::param::set("/detector/devise", "gpu");
   ros::param::set("/detector/filter", "gauss");
@@ -192,6 +194,8 @@ TEST_F(Reconfigure, usesGoodParametersAtTheStartAndNamesTheBadOnes)
   ros::param::set("/detector/region_max_share", std::vector<double>{0.5, 0.6});
   ASSERT_TRUE(NodeletManager::load());
   EXPECT_EQ("60", current("sobel_threshold"));
+  EXPECT_EQ("30", current("sobel_floor"));
+  EXPECT_EQ("false", current("detect_targets"));
   for (const std::string name : {"filter", "filter_size", "region_min_area", "region_max_share"})
   {
     EXPECT_EQ(defaultOf(name), current(name)) << name;

@@ -9,8 +9,8 @@ using omr::TransformWait;
 
 namespace
 {
-const ros::WallDuration PATIENCE(0.2);
-constexpr double AT_ONCE = 0.1;  // [s]
+const ros::WallDuration PATIENCE(1);
+constexpr double AT_ONCE = 0.5;  // [s]
 
 class Wait : public testing::Test
 {
@@ -64,10 +64,13 @@ TEST_F(Wait, aFrameThatIsSentNoLongerCostsOneWait)
 {
   send("plate", 5);
   EXPECT_TRUE(lookup("plate", 5, seconds_));
-  EXPECT_FALSE(lookup("plate", 5.5, seconds_));
+  EXPECT_FALSE(lookup("plate", 5.03, seconds_));
   EXPECT_GE(seconds_, PATIENCE.toSec());
-  EXPECT_FALSE(lookup("plate", 5.6, seconds_));
-  EXPECT_LT(seconds_, AT_ONCE);
+  for (int i = 2; i < 5; ++i)
+  {
+    EXPECT_FALSE(lookup("plate", 5 + 0.03 * i, seconds_));
+    EXPECT_LT(seconds_, AT_ONCE);
+  }
 }
 
 TEST_F(Wait, whatIsOnItsWayIsWaitedForAlsoAfterAFailure)
@@ -80,7 +83,6 @@ TEST_F(Wait, whatIsOnItsWayIsWaitedForAlsoAfterAFailure)
     send("arm", 7.1);
   });
   EXPECT_TRUE(lookup("arm", 7, seconds_));
-  EXPECT_GE(seconds_, 0.02);
   sender.join();
 }
 

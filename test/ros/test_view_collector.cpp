@@ -17,12 +17,12 @@ PartArray viewAt(double stamp)
 }
 
 /** Of each collection the number of views. */
-std::vector<std::size_t> sizes(const std::vector<ViewCollector::Views>& collections)
+std::vector<std::size_t> sizes(const std::vector<ViewCollector::Collection>& collections)
 {
   std::vector<std::size_t> result;
-  for (const ViewCollector::Views& views : collections)
+  for (const ViewCollector::Collection& collection : collections)
   {
-    result.push_back(views.size());
+    result.push_back(collection.views.size());
   }
   return result;
 }
@@ -90,12 +90,27 @@ TEST_F(TwoCameras, aSilentOneIsGivenUpAndAfterASecondNotWaitedFor)
   EXPECT_NEAR(collector_.silence(1, 2), 1.99, 1e-9);
 }
 
+TEST_F(TwoCameras, camerasThatAreTriggeredEveryTwoSecondsAreFused)
+{
+  for (int round = 1; round < 6; ++round)
+  {
+    const double now = 2. * round;
+    const Sizes left = sizes(collector_.add(0, viewAt(10 + now), now + 0.1));
+    const Sizes right = sizes(collector_.add(1, viewAt(10 + now), now + 0.15));
+    if (round > 2)  // by then their intervals are known
+    {
+      EXPECT_EQ(left, Sizes{});
+      EXPECT_EQ(right, Sizes{2}) << round;
+    }
+  }
+}
+
 TEST_F(TwoCameras, timesAreGivenInTheirOrder)
 {
   EXPECT_EQ(sizes(collector_.add(0, viewAt(10.1), 0.2)), Sizes{});
   const auto passed = collector_.add(1, viewAt(10.0), 0.21);  // the other has passed it
   ASSERT_EQ(sizes(passed), Sizes{1});
-  EXPECT_EQ(passed[0][0].header.stamp, ros::Time(10.0));
+  EXPECT_EQ(passed[0].stamp, ros::Time(10.0));
   EXPECT_EQ(sizes(collector_.add(1, viewAt(10.1), 0.22)), Sizes{2});
 }
 
@@ -112,7 +127,7 @@ TEST(ThreeCameras, timesAreGivenInTheirOrder)
   EXPECT_EQ(sizes(collector.add(1, viewAt(10.1), 0.22)), Sizes{});
   const auto done = collector.add(2, viewAt(10.1), 0.23);
   ASSERT_EQ(sizes(done), (Sizes{1, 3}));
-  EXPECT_EQ(done[0][0].header.stamp, ros::Time(10.0));
+  EXPECT_EQ(done[0].stamp, ros::Time(10.0));
 }
 
 TEST_F(TwoCameras, whatComesTooLateIsLeftOutAndKnown)
@@ -135,12 +150,66 @@ TEST_F(TwoCameras, aTimeThatTheOtherHasPassedIsNotWaitedFor)
   EXPECT_EQ(sizes(collector_.add(0, viewAt(10.05), 0.25)), Sizes{2});
 }
 
-TEST_F(TwoCameras, aBagThatBeginsAnewBeginsAnew)
+TEST_F(TwoCameras, whatIsRepeatedIsLeftOut)
+{
+  collector_.add(0, viewAt(10), 0.2);
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(10), 0.21)), Sizes{2});
+  EXPECT_EQ(sizes(collector_.add(0, viewAt(10), 0.22)), Sizes{});
+  EXPECT_EQ(sizes(collector_.add(0, viewAt(9.999), 0.23)), Sizes{});
+  EXPECT_EQ(sizes(collector_.takeLate(0.5)), Sizes{});
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(10.3), 0.5)), Sizes{});
+  EXPECT_EQ(sizes(collector_.add(0, viewAt(10.3), 0.51)), Sizes{2});
+}
+
+TEST_F(TwoCameras, aBagThatBeginsAnewBeginsAnewThoughTheOthersLastViewsComeStill)
 {
   collector_.add(0, viewAt(10), 0.2);
   EXPECT_EQ(sizes(collector_.add(0, viewAt(2), 0.25)), Sizes{1});  // what was open
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(10), 0.26)), Sizes{});  // of the old round
   EXPECT_FALSE(collector_.isTooLate(0));
-  EXPECT_EQ(sizes(collector_.add(1, viewAt(2), 0.26)), Sizes{2});
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(2), 0.27)), Sizes{2});
+  EXPECT_EQ(sizes(collector_.takeLate(0.6)), Sizes{});
+  EXPECT_EQ(sizes(collector_.add(0, viewAt(2.1), 0.6)), Sizes{});
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(2.1), 0.61)), Sizes{2});
+}
+
+TEST_F(TwoCameras, aClockThatIsSetBackOnOneComputerDoesNotSilenceTheOther)
+{
+  for (int i = 1; i < 40; ++i)
+  {
+    collector_.add(0, viewAt(10 + 0.1 * i - (i > 5 ? 3 : 0)), 0.1 * i);
+    collector_.add(1, viewAt(10 + 0.1 * i), 0.1 * i + 0.01);
+    collector_.takeLate(0.1 * i + 0.05);
+  }
+  EXPECT_FALSE(collector_.isTooLate(1));
+}
+
+TEST_F(TwoCameras, oneStampFarAheadDoesHarmForASecond)
+{
+  EXPECT_EQ(sizes(collector_.add(0, viewAt(4e9), 0.2)), Sizes{});
+  EXPECT_EQ(sizes(collector_.takeLate(0.31)), Sizes{1});
+  EXPECT_EQ(sizes(collector_.add(1, viewAt(10.2), 0.35)), Sizes{});
+  EXPECT_TRUE(collector_.isTooLate(1));
+  collector_.add(1, viewAt(11.2), 1.4);
+  EXPECT_FALSE(collector_.isTooLate(1));
+}
+
+TEST_F(TwoCameras, viewsWithoutATimeAreFused)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(sizes(collector_.add(0, viewAt(0), 20 + i)), i == 0 ? Sizes{1} : Sizes{});
+    collector_.takeLate(20.05 + i);
+    if (i > 0)
+    {
+      EXPECT_EQ(sizes(collector_.add(1, viewAt(0), 20.06 + i)), Sizes{2});
+    }
+    else
+    {
+      collector_.add(1, viewAt(0), 20.06);
+      collector_.takeLate(20.5);
+    }
+  }
 }
 
 TEST_F(TwoCameras, twoViewsOfOneCameraAreNeverJoined)
@@ -150,7 +219,7 @@ TEST_F(TwoCameras, twoViewsOfOneCameraAreNeverJoined)
   collector_.add(0, viewAt(10.01), 0.21);
   const auto first = collector_.add(1, viewAt(10), 0.212);
   ASSERT_EQ(sizes(first), Sizes{2});
-  EXPECT_EQ(first[0][1].header.stamp, first[0][0].header.stamp);
+  EXPECT_EQ(first[0].views[1].header.stamp, first[0].views[0].header.stamp);
   EXPECT_EQ(sizes(collector_.add(1, viewAt(10.01), 0.222)), Sizes{2});
 }
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "board_surface.h"
 #include "marker_pose.h"
+#include "outdoor_omr/pose_estimate.h"
 
 namespace omr
 {
@@ -99,7 +100,9 @@ PartHypothesis hypothesis(const Part& part, std::size_t index, const cv::Affine3
                           const std::vector<PointPair>& pairs)
 {
   PartHypothesis result{&part, index, pose, pairs};
-  result.pose.camera_part = pose.camera_part * part_section.inv();
+  const PoseEstimate of_part = movedTo({pose.camera_part, pose.covariance}, part_section.inv());
+  result.pose.camera_part = of_part.pose;
+  result.pose.covariance = of_part.covariance;
   for (PointPair& pair : result.pairs)
   {
     pair.point = part_section * pair.point;

@@ -49,6 +49,7 @@ void PartTracker::track(std::vector<TrackedPart>& parts, double time)
     if (pair.part->id == 0 && !pair.track->taken)
     {
       pair.part->id = pair.track->part.id;
+      pair.part->copy = pair.track->part.copy;
       smooth(*pair.track, *pair.part, time);
       *pair.track = {*pair.part, time, true};
     }
@@ -58,9 +59,24 @@ void PartTracker::track(std::vector<TrackedPart>& parts, double time)
     if (part.id == 0)
     {
       part.id = ++last_id_;
+      part.copy = freeCopy(part.name);
       tracks_.push_back({part, time, true});
     }
   }
+}
+
+std::uint32_t PartTracker::freeCopy(const std::string& name) const
+{
+  const auto is_taken = [&](std::uint32_t copy) {
+    return std::any_of(tracks_.begin(), tracks_.end(),
+                       [&](const Track& track) { return track.part.name == name && track.part.copy == copy; });
+  };
+  std::uint32_t copy = 1;
+  while (is_taken(copy))
+  {
+    ++copy;
+  }
+  return copy;
 }
 
 double PartTracker::reach(const Track& track, double time) const

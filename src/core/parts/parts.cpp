@@ -195,6 +195,14 @@ Part readPart(const YamlFile& node)
   }
   return part;
 }
+
+/** Whether a name is that of the TF frame of a part's copy. */
+bool isFrameOfCopy(const std::string& name, const Part& part)
+{
+  const std::string start = part.name + "_";
+  return part.copies > 1 && name.size() > start.size() && name.rfind(start, 0) == 0 &&
+         name.find_first_not_of("0123456789", start.size()) == std::string::npos;
+}
 }  // namespace
 
 std::vector<Part> readParts(const std::string& file)
@@ -210,6 +218,14 @@ std::vector<Part> readParts(const std::string& file)
     if (std::any_of(parts.begin(), parts.end(), [&](const Part& other) { return other.name == part.name; }))
     {
       entry.get("name", "a name").fail("another part has the name '" + part.name + "' already");
+    }
+    for (const Part& other : parts)
+    {
+      if (isFrameOfCopy(part.name, other) || isFrameOfCopy(other.name, part))
+      {
+        entry.get("name", "a name")
+            .fail("'" + part.name + "' and '" + other.name + "' would share a TF frame: that of a copy is NAME_NUMBER");
+      }
     }
     parts.push_back(std::move(part));
   }

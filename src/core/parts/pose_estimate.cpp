@@ -14,6 +14,21 @@ double radius95(const cv::Matx33d& covariance)
   cv::eigen(covariance, variances);
   return std::sqrt(CHI_SQUARE_95 * std::max(0., variances[0]));
 }
+
+/** The Jacobian of where the end of an arm is by the step of its beginning: a turn w moves it by w x arm. */
+cv::Matx66d swingOf(const cv::Vec3d& arm)
+{
+  const cv::Matx33d swing(0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0);
+  cv::Matx66d jacobian = cv::Matx66d::eye();
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      jacobian(i, 3 + j) = swing(i, j);
+    }
+  }
+  return jacobian;
+}
 }  // namespace
 
 PoseEstimate transformed(const PoseEstimate& estimate, const cv::Affine3d& other_frame)
@@ -30,19 +45,17 @@ PoseEstimate transformed(const PoseEstimate& estimate, const cv::Affine3d& other
   return {other_frame * estimate.pose, turn * estimate.covariance * turn.t()};
 }
 
+PoseEstimate movedTo(const PoseEstimate& estimate, const cv::Affine3d& origin)
+{
+  const cv::Affine3d pose = estimate.pose * origin;
+  const cv::Matx66d jacobian = swingOf(pose.translation() - estimate.pose.translation());
+  return {pose, jacobian * estimate.covariance * jacobian.t()};
+}
+
 PoseEstimate relativeTo(const PoseEstimate& other, const PoseEstimate& part)
 {
-  // A turn w of the other part moves this one, seen from it, by -w x (part - other) = [part - other]x w.
-  const cv::Vec3d arm = part.pose.translation() - other.pose.translation();
-  const cv::Matx33d swing(0, -arm[2], arm[1], arm[2], 0, -arm[0], -arm[1], arm[0], 0);
-  cv::Matx66d by_other = cv::Matx66d::eye() * -1;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      by_other(i, 3 + j) = swing(i, j);
-    }
-  }
+  // What moves the other part moves this one, seen from it, the other way.
+  const cv::Matx66d by_other = swingOf(part.pose.translation() - other.pose.translation());
   const PoseEstimate apart{part.pose, part.covariance + by_other * other.covariance * by_other.t()};
   return transformed(apart, other.pose.inv());
 }
