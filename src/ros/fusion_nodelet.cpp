@@ -187,20 +187,17 @@ class FusionNodelet : public CheckedNodelet
       contradicted += fusion.agree == 0 ? " " + fusion.part : "";
       too_few += static_cast<int>(fusion.frame_ids.size()) < settings_.min_cameras ? " " + fusion.part : "";
     }
-    if (!is_any_heard)  // else what the cameras said last would be said for ever
-    {
-      status.summary(DiagnosticStatus::WARN, "Nothing for 5 s from" + silent);
-    }
-    else if (!complaint_.empty() || !unplaced_.empty())
+    // What cameras said last is not said for ever once all are silent.
+    if (is_any_heard && (!complaint_.empty() || !unplaced_.empty()))
     {
       status.summary(DiagnosticStatus::ERROR, complaint_.empty() ? unplaced_ : complaint_);
     }
-    else if (!contradicted.empty())
+    else if (is_any_heard && !contradicted.empty())
     {
       status.summary(DiagnosticStatus::ERROR, "Cameras contradict each other on" + contradicted +
                                                   ": has one been moved? is its transform right?");
     }
-    else if (!too_few.empty())
+    else if (is_any_heard && !too_few.empty())
     {
       status.summaryf(DiagnosticStatus::WARN, "Seen by fewer than %d cameras, not published:%s", settings_.min_cameras,
                       too_few.c_str());
