@@ -64,7 +64,7 @@ void checkOverlays(const std::string& folder, const std::vector<std::string>& na
     for (const std::string& image : images)
     {
       std::error_code error;  // where one of them is not there, they are not the same
-      if (std::filesystem::equivalent(folder + "/" + name, image, error))
+      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, image, error))
       {
         throw std::invalid_argument("the overlay would overwrite the image '" + image +
                                     "'; name another folder for --overlay");
