@@ -26,7 +26,7 @@ constexpr double MOST_REST = 10;
 // Haze explains what white rings between the others would, and a drawn screw on beige with a rest of 6 for each of four
 // rings. In 400 drawn scenes 67 of the 68 readings behind haze that leave less than this are right.
 constexpr double MOST_HAZY_REST = 5;
-constexpr double HAZE_COST = 10;
+constexpr double HAZE_COST = 10;  // of haze, in the unit of the rest
 constexpr std::size_t MOST_ADDED = 2;
 constexpr std::size_t MOST_RINGS = 9;
 constexpr std::size_t LEAST_RINGS = 3;
@@ -95,9 +95,9 @@ double unevenness(const Radii& radii)
   return squares - sum * sum / static_cast<double>(radii.size());
 }
 
-double costOf(const InkFit::Result& result, const Radii& radii)
+double costOf(double rest, const Radii& radii)
 {
-  return result.rest + RING_COST * static_cast<double>(radii.size()) + WIDTH_COST * unevenness(radii);
+  return rest + RING_COST * static_cast<double>(radii.size()) + WIDTH_COST * unevenness(radii);
 }
 }  // namespace
 
@@ -123,7 +123,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
   for (const Radii& radii : sets)
   {
     InkFit::Result result = fit.explain(radii);
-    const double cost = costOf(result, radii);
+    const double cost = costOf(result.rest, radii);
     double& of_count = least_of_count[std::min(radii.size(), MOST_RINGS + 1)];
     of_count = std::min(of_count, cost);
     if (cost < least)
@@ -135,13 +135,17 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
   }
   least_of_count[std::min(rings.radii.size(), MOST_RINGS + 1)] = std::numeric_limits<double>::infinity();
   double margin = *std::min_element(least_of_count.begin(), least_of_count.end()) - least;
-  InkFit::Result veiled = fit.explainInHaze(found);
-  const bool is_veiled = costOf(veiled, found) + HAZE_COST < least;
-  if (is_veiled)
+  bool is_veiled = false;
+  if (costOf(0, found) + HAZE_COST < least)  // else haze explains no more, whatever it leaves
   {
-    best = std::move(veiled);
-    rings.radii = found;
-    margin = std::numeric_limits<double>::infinity();
+    InkFit::Result veiled = fit.explainInHaze(found);
+    is_veiled = costOf(veiled.rest, found) + HAZE_COST < least;
+    if (is_veiled)
+    {
+      best = std::move(veiled);
+      rings.radii = found;
+      margin = std::numeric_limits<double>::infinity();
+    }
   }
   rings.letters.clear();
   for (const double of_letter : fit.margins(rings.radii, best))

@@ -51,7 +51,7 @@ struct Plenty
 };
 constexpr std::array<Plenty, 2> PLENTY = {Plenty{3, 1.6, .6}, Plenty{5, 2.75, 1.5}};
 // Of h R: the uncertainty of small targets; of bent sheets more, as bend and perspective explain much the same. Of 800
-// targets in drawn scenes two are found so, with all their letters; of 565 photographs no other rings come so near.
+// targets in drawn scenes two are found so, with all their letters; in 565 photographs it finds nothing more.
 constexpr double PERSPECTIVE_SLACK = .1;
 constexpr double BENT_SLACK = .15;
 
