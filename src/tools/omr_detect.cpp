@@ -59,16 +59,20 @@ std::vector<std::string> overlayNames(const std::vector<std::string>& images)
 void checkOverlays(const std::string& folder, const std::vector<std::string>& names,
                    const std::vector<std::string>& images)
 {
+  std::error_code ignored;  // what is not there has no canonical name, and is nothing to lose
+  std::set<std::filesystem::path> originals;
+  for (const std::string& image : images)
+  {
+    originals.insert(std::filesystem::canonical(image, ignored));
+  }
+  originals.erase(std::filesystem::path());
   for (const std::string& name : names)
   {
-    for (const std::string& image : images)
+    const std::filesystem::path overlay = std::filesystem::canonical(std::filesystem::path(folder) / name, ignored);
+    if (originals.count(overlay) > 0)
     {
-      std::error_code error;  // where one of them is not there, they are not the same
-      if (std::filesystem::equivalent(std::filesystem::path(folder) / name, image, error))
-      {
-        throw std::invalid_argument("the overlay would overwrite the image '" + image +
-                                    "'; name another folder for --overlay");
-      }
+      throw std::invalid_argument("the overlay would overwrite the image '" + overlay.string() +
+                                  "'; name another folder for --overlay");
     }
   }
 }
