@@ -1,5 +1,6 @@
-// How the work is cut. Every kernel is launched in work-groups of LANES lanes; the lanes of a group share one row,
-// strip of rows or column of words and walk it with the stride LANES. A CPU gets LANES = 1 and runs plain loops (PoCL:
+// How the work is cut. Every kernel is launched in work-groups of LANES lanes. The lanes of a group share a row, a strip
+// of rows, a tile or a list and walk it with the stride LANES; where each takes a word or a row of its own, the kernel
+// says so. A CPU gets LANES = 1 and runs plain loops (PoCL:
 // a group costs 4 ns, its own work-item loop vectorises byte kernels 10 to 40 times worse than a loop over the row); a
 // GPU gets LANES = 64, a wavefront.
 

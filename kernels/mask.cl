@@ -11,7 +11,7 @@ INLINE int lowestBit(ulong bits)
   return (int)popcount((bits & -bits) - 1);
 }
 
-/** The bits of row & other shifted so that each one meets its left neighbour. */
+/** The bits of a word shifted so that each one meets its left neighbour. */
 INLINE ulong leftOf(ulong word, ulong word_before)
 {
   return (word << 1) | (word_before >> 63);

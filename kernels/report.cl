@@ -23,7 +23,7 @@ INLINE float runDistance(int length, float dx, float dy)
 
 /**
  * Sum of the distances of a run's pixels to the centre of its region [1/4096 px]; 0 where the area is not asked for. The
- * centre is taken relative to the bounding box: a float holds it to 1e-4 px even at 8K.
+ * centre is taken relative to the bounding box: a float holds it to 6e-4 px even at 8K.
  */
 INLINE ulong distanceToCentre(global const RegionSums* region, uint min_area, uint max_area, int start, int end, int y)
 {

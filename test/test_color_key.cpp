@@ -18,6 +18,14 @@ std::vector<omr::ColorMeasurement> ways(const std::vector<std::vector<LinearColo
   return result;
 }
 
+/** All rings are seen, measured in one way, and sharp. */
+std::string readColorKey(std::vector<LinearColor> rings, const LinearColor& around)
+{
+  const std::vector<bool> seen(rings.size(), true);
+  rings.push_back(around);
+  return omr::readColorKey(ways({rings}), seen, true);
+}
+
 const LinearColor WHITE(.8, .8, .8);
 const LinearColor BLACK(.055, .055, .055);
 const LinearColor RED(.53, .05, .05);

@@ -12,8 +12,8 @@ using omr::FillPipeline;
 TEST(WithoutOpenCL, autoFallsBackToTheReferenceAndSaysWhy)
 {
   FillPipeline pipeline("auto");
-  EXPECT_EQ("reference (no OpenCL)", pipeline.deviceName());
-  EXPECT_EQ("no OpenCL device is present", pipeline.fallbackReason());
+  EXPECT_EQ("reference (no OpenCL)", pipeline.device().name);
+  EXPECT_EQ("no OpenCL device is present", pipeline.device().fallback_reason);
   EXPECT_TRUE(FillPipeline::devices().empty());
   omr::RegionMap map;
   pipeline.run(cv::Mat(20, 30, CV_8UC3, cv::Scalar::all(80)), omr::Settings(), FillPipeline::Outputs(), map);

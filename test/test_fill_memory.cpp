@@ -119,6 +119,47 @@ TEST(FillMemory, growthIsBoundedAndGivenBack)
   EXPECT_LT(map.regions.capacity(), 20000U);
 }
 
+TEST(FillMemory, whatOnlySomeImagesNeedIsGivenBack)
+{
+  const cv::Mat scene = omr::drawScene({320, 240});
+  FillPipeline pipeline;
+  RegionMap map;
+  const FillPipeline::Outputs none;
+  pipeline.run(scene, Settings(), none, map);
+  const std::size_t usual = pipeline.bufferBytes();
+  Settings sweep;
+  sweep.fill_method = omr::FillMethod::sweep;
+  pipeline.run(scene, sweep, none, map);
+  EXPECT_EQ(usual + scene.total() * sizeof(int), pipeline.bufferBytes());
+  for (int image = 0; image < 105; ++image)
+  {
+    pipeline.run(scene, Settings(), none, map);
+  }
+  EXPECT_EQ(usual, pipeline.bufferBytes());
+}
+
+TEST(FillMemory, manyEnlargementsOfAnImageLeaveItsBuffers)
+{
+  FillPipeline pipeline;
+  RegionMap map;
+  FillPipeline::Outputs outputs;
+  pipeline.run(omr::drawScene({1280, 720}), Settings(), outputs, map);
+  const std::size_t usual = pipeline.bufferBytes();
+  outputs.is_enlargement = true;
+  const cv::Mat enlargement = omr::drawScene({160, 120});
+  for (int look = 0; look < 105; ++look)
+  {
+    pipeline.run(enlargement, Settings(), outputs, map);
+  }
+  EXPECT_EQ(usual, pipeline.bufferBytes());
+  outputs.is_enlargement = false;
+  for (int image = 0; image < 105; ++image)
+  {
+    pipeline.run(enlargement, Settings(), outputs, map);
+  }
+  EXPECT_LT(pipeline.bufferBytes(), usual);
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

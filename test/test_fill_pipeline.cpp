@@ -176,14 +176,52 @@ TEST(FillPipeline, findsADeviceByAPartOfItsName)
   ASSERT_FALSE(devices.empty()) << "no OpenCL device: scripts/setup installs pocl-opencl-icd, which is one";
   std::string part = devices.front().substr(devices.front().find(": ") + 2, 8);
   std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return std::toupper(c); });
-  EXPECT_EQ(devices.front(), FillPipeline(part).deviceName());
+  EXPECT_EQ(devices.front(), FillPipeline(part).device().name);
+}
+
+TEST(FillPipeline, networksThatAreIncompleteAreRefused)
+{
+  FillPipeline pipeline;
+  RegionMap map;
+  std::vector<omr::MarkerScores> scores;
+  const auto refusal = [&](const omr::MarkerNetwork& network, std::vector<omr::MarkerScores>* receiver) {
+    FillPipeline::Outputs outputs;
+    outputs.network = &network;
+    outputs.window_scores = receiver;
+    try
+    {
+      pipeline.run(omr::drawScene({320, 240}), Settings(), outputs, map);
+    }
+    catch (const std::invalid_argument& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const omr::MarkerNetwork& whole = omr::defaultMarkerNetwork();
+  EXPECT_EQ("", refusal(whole, &scores));
+  EXPECT_EQ("a network is given, but no window_scores that receive what it finds", refusal(whole, nullptr));
+  EXPECT_EQ("a network of candidates has 1 to 256 hidden units and all their weights; this one has 0 and 0 weights",
+            refusal(omr::MarkerNetwork(), &scores));
+  omr::MarkerNetwork large = whole;
+  large.hidden = 300;
+  EXPECT_NE("", refusal(large, &scores));
+  omr::MarkerNetwork truncated = whole;
+  truncated.weights.pop_back();
+  EXPECT_NE("", refusal(truncated, &scores));
+  omr::MarkerNetwork wide_gate = whole;
+  wide_gate.gate.hidden = 20;
+  EXPECT_EQ(
+      "the gate of a network of candidates has up to 16 hidden units and all their weights; this one has 20 and " +
+          std::to_string(whole.gate.weights.size()) + " weights",
+      refusal(wide_gate, &scores));
 }
 
 TEST(FillPipeline, theReferenceNeedsNoDevice)
 {
   const FillPipeline pipeline("reference");
-  EXPECT_EQ("reference (no OpenCL)", pipeline.deviceName());
-  EXPECT_EQ("", pipeline.fallbackReason());
+  EXPECT_EQ("reference (no OpenCL)", pipeline.device().name);
+  EXPECT_EQ("", pipeline.device().fallback_reason);
 }
 
 int main(int argc, char** argv)

@@ -18,7 +18,7 @@ namespace omr
 class Worker;
 
 /** The chain from image to markers (paper, Fig. 6); the only place that knows all its steps. Not thread-safe;
- * targets are searched in a second thread beside all other steps. */
+ * two threads of its own look for targets and reduce the image beside the fill pipeline. */
 class Detector
 {
  public:
@@ -28,7 +28,7 @@ class Detector
   Detector(Detector&& other) noexcept;
   Detector& operator=(Detector&& other) noexcept;
 
-  /** In the place of the default network, see omr_train. */
+  /** In the place of the default network, see omr_train. @throws std::invalid_argument: see checkNetwork(). */
   void setNetwork(const MarkerNetwork& network);
 
   /**

@@ -58,6 +58,9 @@ struct MarkerNetwork : FeedForward
   std::array<BoxEvidence, MARKER_KINDS> boxes;
 };
 
+/** @throws std::invalid_argument unless there are 1 to 256 hidden units, 16 in the gate at most, and all weights. */
+void checkNetwork(const MarkerNetwork& network);
+
 /** @param inputs of the network: HAAR_FEATURES values for a MarkerNetwork, GATE_INPUTS for its gate. */
 MarkerScores markerScores(const FeedForward& network, int inputs, const float* values);
 

@@ -8,8 +8,8 @@
 namespace omr
 {
 /**
- * Exact integer sums over the pixels of one contiguous region; every implementation delivers the same bits, so the
- * device code is compared with the reference with ==.
+ * Integer sums over the pixels of one contiguous region; every implementation delivers the same bits of all but the
+ * distances, so the device code is compared with the reference with ==.
  *
  * The layout is shared with kernels/record.cl (104 bytes, no padding).
  */

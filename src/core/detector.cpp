@@ -35,6 +35,24 @@ class StopWatch
   std::vector<StepTime>& times_;
   Clock::time_point start_;
 };
+
+/** Lets go of an image at its end: the caller's pixels may be gone then. */
+class ReleasedImage
+{
+ public:
+  explicit ReleasedImage(cv::Mat& image) : image_(image)
+  {
+  }
+  ReleasedImage(const ReleasedImage&) = delete;
+  ReleasedImage& operator=(const ReleasedImage&) = delete;
+  ~ReleasedImage()
+  {
+    image_.release();
+  }
+
+ private:
+  cv::Mat& image_;
+};
 }  // namespace
 
 Detector::Detector(const std::string& device)
@@ -50,12 +68,14 @@ Detector& Detector::operator=(Detector&& other) noexcept = default;
 
 void Detector::setNetwork(const MarkerNetwork& network)
 {
+  checkNetwork(network);
   network_ = network;
 }
 
 Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, const FillPipeline::Outputs& outputs,
                               RegionMap& regions, std::vector<StepTime>& times)
 {
+  const ReleasedImage released(frame_.bgr);  // after all tasks, also if one throws
   // Half of the search for targets and the pyramid need no regions: they are made beside the fill pipeline.
   TargetSearch targets(bgr, settings);
   Task image_look;
@@ -106,7 +126,6 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
     markers.targets = targets.finish(regions, markers.checkerboards);
     watch.step("targets");
   }
-  frame_.bgr.release();
   return markers;
 }
 
@@ -129,6 +148,7 @@ Markers Detector::detect(const cv::Mat& bgr, const Settings& settings)
     markRead(bgr.size(), markers.checkerboards, markers.targets, markers.candidates);
     FillPipeline::Outputs of_enlarged;
     of_enlarged.measures = false;
+    of_enlarged.is_enlargement = true;
     const auto detect = [&](const cv::Mat& enlarged) {
       std::vector<StepTime> own_times;  // those of the frame's steps shall not be there twice
       return findMarkers(enlarged, settings, of_enlarged, enlarged_regions_, own_times);

@@ -29,6 +29,20 @@ bool usable(const cl::Device& device)
          device.getInfo<CL_DEVICE_ENDIAN_LITTLE>();
 }
 
+std::vector<cl::Device> devicesOf(const cl::Platform& platform)
+{
+  std::vector<cl::Device> devices;
+  try
+  {
+    platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+  }
+  catch (const cl::Error&)
+  {
+    devices.clear();  // a platform without devices, or with a broken driver: the others still count
+  }
+  return devices;
+}
+
 bool matches(const Device& device, const std::string& name)
 {
   if (name == "gpu")
@@ -57,11 +71,9 @@ std::vector<Device> findDevices()
   }
   for (const cl::Platform& platform : platforms)
   {
-    try
+    for (const cl::Device& device : devicesOf(platform))
     {
-      std::vector<cl::Device> devices;
-      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-      for (const cl::Device& device : devices)
+      try
       {
         if (usable(device))
         {
@@ -70,10 +82,10 @@ std::vector<Device> findDevices()
           found.push_back({device, type, name + " (" + typeName(type) + ")"});
         }
       }
-    }
-    catch (const cl::Error&)
-    {
-      continue;  // a platform without devices, or with a broken driver: the others still count
+      catch (const cl::Error&)
+      {
+        continue;  // a broken device: the others still count
+      }
     }
   }
   return found;

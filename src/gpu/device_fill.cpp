@@ -26,7 +26,15 @@ DeviceFill::DeviceFill(const Device& device, Geometry geometry)
       shares_memory_(device.isCpu()),
       compute_units_(static_cast<int>(device.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()))
 {
-  warmUp();
+  try
+  {
+    warmUp();
+  }
+  catch (...)
+  {
+    abandon();
+    throw;
+  }
 #ifdef __GLIBC__
   // What PoCL freed after it had loaded the kernels: a process with one detector takes 185 instead of 190 MB at 1080p.
   malloc_trim(0);
@@ -38,12 +46,17 @@ Groups DeviceFill::rows() const
   return {static_cast<std::size_t>(size_.height), 1};
 }
 
-void DeviceFill::loadImage(const cv::Mat& bgr)
+void DeviceFill::loadImage(const cv::Mat& bgr, bool is_enlargement)
 {
   bgr_ = bgr;
   size_ = bgr.size();
+  is_enlargement_ = is_enlargement;
   loaded_ = scored_ = filtered_ = edges_found_ = labelled_ = cl::Event();
-  buffers_.reserve(context_, size_, stripsOfDevice());
+  buffers_.reserve(context_, size_, stripsOfDevice(), !is_enlargement);
+  if (!is_enlargement)
+  {
+    restUnused();
+  }
   const std::size_t row_bytes = static_cast<std::size_t>(size_.width) * 3;
   if (shares_memory_)
   {
@@ -53,12 +66,26 @@ void DeviceFill::loadImage(const cv::Mat& bgr)
     return;
   }
   step_ = static_cast<cl_long>(row_bytes);
-  upload_.reserve(context_, size_.height, row_bytes);
+  is_enlargement ? upload_.grow(context_, size_.height, row_bytes) : upload_.reserve(context_, size_.height, row_bytes);
   image_ = *upload_;
   const std::array<std::size_t, 3> origin = {0, 0, 0};
   const std::array<std::size_t, 3> region = {row_bytes, static_cast<std::size_t>(size_.height), 1};
   queue_.enqueueWriteBufferRect(image_, CL_FALSE, origin, origin, region, row_bytes, 0, bgr.step[0], 0, bgr.data,
                                 nullptr, &loaded_);
+}
+
+/** What not every image needs counts the images without. */
+void DeviceFill::restUnused()
+{
+  for (GrowingBuffer* buffer : {&edge_image_, &label_image_, &sweep_labels_})
+  {
+    buffer->rest();
+  }
+  images_without_windows_ = windows_ ? images_without_windows_ + 1 : 0;
+  if (images_without_windows_ > PATIENCE)
+  {
+    windows_.reset();
+  }
 }
 
 void DeviceFill::filter(Filter filter, int size)
@@ -165,6 +192,20 @@ void DeviceFill::finish()
   bgr_.release();
 }
 
+void DeviceFill::abandon() noexcept
+{
+  try
+  {
+    queue_.finish();
+  }
+  catch (const cl::Error&)
+  {
+    // A queue that cannot be waited for is broken, and nothing is at work in it.
+  }
+  image_ = cl::Buffer();
+  bgr_.release();
+}
+
 DeviceFill::Times DeviceFill::times() const
 {
   Times times;
@@ -207,15 +248,16 @@ void DeviceFill::warmUp()
       scoreWindows(defaultMarkerNetwork(), scores);
       filter(kind, size);
       findEdges({200, size == 3 ? 200 : 100});
-      readEdges(edges);
       labelRegions(size == 3 ? FillMethod::runs : FillMethod::sweep, image.rows * image.cols);
       readLabels(labels);
+      readEdges(edges);
       sumRegions(AreaWindow());
       readSums(sums);
       finish();
     }
   }
   windows_.reset();
+  edge_image_ = label_image_ = sweep_labels_ = GrowingBuffer();
 }
 
 }  // namespace omr

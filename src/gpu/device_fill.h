@@ -44,27 +44,26 @@ class DeviceFill
   DeviceFill(const DeviceFill&) = delete;
   DeviceFill& operator=(const DeviceFill&) = delete;
 
-  /** Hands an image (CV_8UC3, not empty) to the device, which reads it until finish(). */
-  void loadImage(const cv::Mat& bgr);
+  /**
+   * Hands an image (CV_8UC3, not empty) to the device, which reads it until finish().
+   *
+   * @param is_enlargement of a part of the last image: the buffers stay as that one needs them.
+   */
+  void loadImage(const cv::Mat& bgr, bool is_enlargement = false);
 
   /**
-   * Preliminary detection in the loaded image (device_windows.cpp), before it is filtered.
+   * Preliminary detection in the loaded image (device_windows.cpp), before it is filtered; waits where the network or
+   * the image's size is another than the last one's. What it needs is freed after many images without.
    *
    * @param scores of all windows by the time of finish(), as windowScores() gives them.
    */
   void scoreWindows(const MarkerNetwork& network, std::vector<MarkerScores>& scores);
-
-  /** In the place of scoreWindows(): frees what it needs after many images without. */
-  void spareWindows();
 
   void filter(Filter filter, int size);
   void findEdges(const EdgeThreshold& threshold);
 
   /** In the place of findEdges(): takes an edge mask (CV_8UC1, 0 = region) of the image's size; waits. */
   void loadEdges(const cv::Mat& edges);
-
-  /** Brings the edge image (CV_8UC1) to the host by the time of finish(). */
-  void readEdges(cv::Mat& edges);
 
   /**
    * Finds the regions; waits for each round of FillMethod::sweep.
@@ -74,8 +73,9 @@ class DeviceFill
    */
   FillMethod labelRegions(FillMethod method, int sweep_rounds);
 
-  /** Brings the labels (CV_32SC1) to the host by the time of finish(). */
+  /** Bring the labels (CV_32SC1) and the edge image (CV_8UC1) to the host by the time of finish(). */
   void readLabels(cv::Mat& labels);
+  void readEdges(cv::Mat& edges);
 
   /**
    * Sums the region data; distances only for the regions in the window.
@@ -98,6 +98,9 @@ class DeviceFill
   /** Waits until all is done and lets go of the image. */
   void finish();
 
+  /** The same after an error, further ones of which do not count. */
+  void abandon() noexcept;
+
   /** Device time of the steps since loadImage(), each with what precedes it [ms]; 0 for a step that did not run. */
   struct Times
   {
@@ -113,6 +116,7 @@ class DeviceFill
   void launch(const char* kernel, const Groups& groups, const Arguments&... arguments);
   template <typename Write>
   void readImage(cv::Mat& image, GrowingBuffer& buffer, const Write& write);
+  void restUnused();
   void warmUp();
   void reserveWindows();
   void uploadWindows(const MarkerNetwork& network);
@@ -136,11 +140,12 @@ class DeviceFill
   int compute_units_;
   FillBuffers buffers_;
   std::unique_ptr<WindowBuffers> windows_;  ///< null while there is no preliminary detection
-  int images_without_windows_ = 0;          // in a row
+  int images_without_windows_ = 0;          ///< in a row
   GrowingBuffer upload_, edge_image_, label_image_, sweep_labels_;
   cv::Mat bgr_;       ///< holds the pixels until finish()
   cl::Buffer image_;  ///< what the next step reads: the loaded or the filtered image
   cl_long step_ = 0;  ///< bytes from row to row of it
+  bool is_enlargement_ = false;
   cv::Size size_;
   Strips strips_;
   AreaWindow window_;

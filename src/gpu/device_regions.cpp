@@ -191,7 +191,7 @@ int DeviceFill::readSums(std::vector<RegionSums>& sums)
     queue_.enqueueReadBuffer(*buffers_.reported, CL_TRUE, read * sizeof(RegionSums),
                              (counters.reported - read) * sizeof(RegionSums), sums.data() + read);
   }
-  buffers_.needed(counters);
+  buffers_.needed(counters, !is_enlargement_);
   expected_reports_ = counters.reported + counters.reported / 4 + 64;
   return static_cast<int>(counters.regions);
 }

@@ -41,11 +41,12 @@ void DeviceFill::reserveWindows()
 void DeviceFill::uploadWindows(const MarkerNetwork& network)
 {
   reserveWindows();
-  if (windows_->tables.bytes() == 0)
+  if (!windows_->has_tables)
   {
     const auto& logarithm = haarTables().logarithm;
     upload(context_, queue_, std::vector<cl_short>(logarithm.begin(), logarithm.end()), windows_->logarithm);
     upload(context_, queue_, packTables(), windows_->tables);
+    windows_->has_tables = true;
   }
   const FeedForward& gate = network.gate;
   if (windows_->network.weights != network.weights || windows_->network.gate.weights != gate.weights)
@@ -104,15 +105,6 @@ void DeviceFill::scoreWindows(const MarkerNetwork& network, std::vector<MarkerSc
   }
   queue_.enqueueReadBuffer(*windows_->scores, CL_FALSE, 0, scores.size() * sizeof(MarkerScores), scores.data());
   scored_ = last_event_;
-}
-
-void DeviceFill::spareWindows()
-{
-  images_without_windows_ += 1;
-  if (images_without_windows_ > PATIENCE)
-  {
-    windows_.reset();
-  }
 }
 
 }  // namespace omr

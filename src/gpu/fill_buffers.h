@@ -46,6 +46,12 @@ class GrowingBuffer
    */
   void reserve(const cl::Context& context, std::size_t count, std::size_t element_size);
 
+  /** The same any number of times; never shrinks. */
+  void grow(const cl::Context& context, std::size_t count, std::size_t element_size);
+
+  /** Once an image, before the first use: many images without any use free it. */
+  void rest();
+
   const cl::Buffer& operator*() const
   {
     return buffer_;
@@ -57,9 +63,12 @@ class GrowingBuffer
   }
 
  private:
+  void free();
+
   cl::Buffer buffer_;
   std::size_t bytes_ = 0;
   int spacious_images_ = 0;  // in a row
+  int idle_images_ = 0;      // in a row
 };
 
 /** Frees a vector that has room for more elements than are enough; its content is lost. */
@@ -93,15 +102,20 @@ struct FillBuffers
   GrowingBuffer records;   ///< of regions or of their parts
   GrowingBuffer reported;  ///< records in the window of areas
 
-  /** Makes room for an image, and for as many records as the last ones needed. @throws cl::Error if there is none. */
-  void reserve(const cl::Context& context, const cv::Size& size, const Strips& strips);
+  /**
+   * Makes room for an image, and for as many records as the last ones needed.
+   *
+   * @param may_shrink false: what is larger stays, however often.
+   * @throws cl::Error if there is none.
+   */
+  void reserve(const cl::Context& context, const cv::Size& size, const Strips& strips, bool may_shrink);
 
   /** Room for records, after an image that needs more than there is. */
   void growRecords(const cl::Context& context, cl_uint count);
   void growReported(const cl::Context& context, cl_uint count);
 
-  /** What the image needed: the next ones will need about as many. */
-  void needed(const Counters& counters);
+  /** What the image needed: the next ones will need about as many, or where may_shrink is false no less than before. */
+  void needed(const Counters& counters, bool may_shrink);
 
   cl_uint recordCapacity() const;
   cl_uint reportedCapacity() const;

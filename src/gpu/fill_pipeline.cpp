@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "device_choice.h"
 #include "device_fill.h"
-#include "kernel_cache.h"
 #include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/window_scores.h"
 
@@ -14,7 +14,7 @@ namespace omr
 {
 namespace
 {
-constexpr int MAX_WIDTH = 65535;  // the kernels keep columns in 16 bits
+constexpr int MAX_SIDE = 65535;  // the kernels keep columns in 16 bits, and sums of squares of rows in 64
 
 using Clock = std::chrono::steady_clock;
 
@@ -30,30 +30,6 @@ AreaWindow areaWindow(const Settings& settings, const cv::Mat& bgr)
   window.max = static_cast<cl_uint>(std::floor(settings.region_max_share * static_cast<double>(bgr.total())));
   return window;
 }
-
-/** Opens the first device that works; the reasons why others did not are appended to failures. */
-std::unique_ptr<DeviceFill> openDevice(const std::vector<Device>& devices, std::string& name, std::string& failures)
-{
-  for (const Device& device : devices)
-  {
-    try
-    {
-      fillKernelCache(device);
-      auto fill = std::make_unique<DeviceFill>(device, device.isCpu() ? Geometry::strips : Geometry::words);
-      name = device.description;
-      return fill;
-    }
-    catch (const cl::Error& error)
-    {
-      failures += (failures.empty() ? "" : "\n") + describeError(error, device.description);
-    }
-    catch (const DeviceError& error)
-    {
-      failures += (failures.empty() ? "" : "\n") + std::string(error.what());
-    }
-  }
-  return nullptr;
-}
 }  // namespace
 
 void FillPipeline::checkImage(const cv::Mat& bgr)
@@ -62,56 +38,42 @@ void FillPipeline::checkImage(const cv::Mat& bgr)
   {
     throw std::invalid_argument("expected an image of type CV_8UC3 that is not empty");
   }
-  if (bgr.cols > MAX_WIDTH || bgr.total() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  if (std::max(bgr.cols, bgr.rows) > MAX_SIDE ||
+      bgr.total() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
   {
     throw std::invalid_argument("the image of " + std::to_string(bgr.cols) + " x " + std::to_string(bgr.rows) +
-                                " px is too large: at most 65535 px wide and 2^31 - 1 px");
+                                " px is too large: at most 65535 px a side and 2^31 - 1 px");
   }
 }
 
 class FillPipeline::Implementation
 {
  public:
-  explicit Implementation(const std::string& device)
+  explicit Implementation(const std::string& device) : devices_(device)
   {
-    if (device == "reference")
-    {
-      return;
-    }
-    const std::vector<Device> devices = selectDevices(device);
-    std::string failures;
-    fill_ = openDevice(devices, name_, failures);
-    if (!fill_ && device != "auto")
-    {
-      throw DeviceError(failures);
-    }
-    if (!fill_)
-    {
-      fallback_reason_ = devices.empty() ? "no OpenCL device is present" : failures;
-    }
   }
 
   void run(const cv::Mat& bgr, const Settings& settings, const Outputs& outputs, RegionMap& map,
            std::vector<StepTime>* times)
   {
     const Clock::time_point start = Clock::now();
+    map.size = cv::Size();
+    map.region_count = 0;
+    map.regions.clear();
     DeviceFill::Times steps;
-    map.size = bgr.size();
-    if (fill_)
-    {
-      runOnDevice(bgr, settings, outputs, map, steps);
-    }
-    else
+    const bool done =
+        devices_.run([&](DeviceFill& device) { runOnDevice(device, bgr, settings, outputs, map, steps); });
+    if (!done)
     {
       runReference(bgr, settings, outputs, map, steps);
     }
-    map.regions.clear();
     giveBack(map.regions, sums_.capacity());
     map.regions.reserve(sums_.size());
     for (const RegionSums& sums : sums_)
     {
       map.regions.push_back(toRegion(sums));
     }
+    map.size = bgr.size();
     if (times)
     {
       const double rest = millisecondsSince(start) - steps.candidates - steps.filter - steps.edges - steps.labels;
@@ -126,68 +88,34 @@ class FillPipeline::Implementation
     }
   }
 
-  const std::string& name() const
+  const DeviceState& device() const
   {
-    return name_;
-  }
-
-  const std::string& fallbackReason() const
-  {
-    return fallback_reason_;
+    return devices_.state();
   }
 
   std::size_t bytes() const
   {
-    return fill_ ? fill_->bytes() : 0;
+    return devices_.fill() ? devices_.fill()->bytes() : 0;
   }
 
  private:
-  void runOnDevice(const cv::Mat& bgr, const Settings& settings, const Outputs& outputs, RegionMap& map,
-                   DeviceFill::Times& times)
+  void runOnDevice(DeviceFill& device, const cv::Mat& bgr, const Settings& settings, const Outputs& outputs,
+                   RegionMap& map, DeviceFill::Times& times)
   {
-    try
+    device.loadImage(bgr, outputs.is_enlargement);
+    if (outputs.network)
     {
-      fill_->loadImage(bgr);
-      if (outputs.network)
-      {
-        fill_->scoreWindows(*outputs.network, *outputs.window_scores);
-      }
-      else
-      {
-        fill_->spareWindows();
-      }
-      fill_->filter(settings.filter, settings.filter_size);
-      fill_->findEdges(edgeThreshold(settings));
-      fill_->labelRegions(settings.fill_method, settings.sweep_rounds);
-      readOutputs(outputs, map);
-      fill_->sumRegions(areaWindow(settings, bgr), outputs.measures);
-      map.region_count = fill_->readSums(sums_);
-      fill_->finish();
-      times = fill_->times();
+      device.scoreWindows(*outputs.network, *outputs.window_scores);
     }
-    catch (const cl::Error& error)
-    {
-      abandon();
-      throw DeviceError(describeError(error, name_));
-    }
-  }
-
-  void readOutputs(const Outputs& outputs, RegionMap& map)
-  {
-    outputs.labels ? fill_->readLabels(map.labels) : map.labels.release();
-    outputs.edges ? fill_->readEdges(map.edges) : map.edges.release();
-  }
-
-  /** After an error: the device must not read or write the caller's memory any more. */
-  void abandon()
-  {
-    try
-    {
-      fill_->finish();
-    }
-    catch (const cl::Error&)  // the first error is the one to report
-    {
-    }
+    device.filter(settings.filter, settings.filter_size);
+    device.findEdges(edgeThreshold(settings));
+    device.labelRegions(settings.fill_method, settings.sweep_rounds);
+    outputs.labels ? device.readLabels(map.labels) : map.labels.release();
+    outputs.edges ? device.readEdges(map.edges) : map.edges.release();
+    device.sumRegions(areaWindow(settings, bgr), outputs.measures);
+    map.region_count = device.readSums(sums_);
+    device.finish();
+    times = device.times();
   }
 
   void runReference(const cv::Mat& bgr, const Settings& settings, const Outputs& outputs, RegionMap& map,
@@ -220,9 +148,7 @@ class FillPipeline::Implementation
     map.labels = outputs.labels ? labels : cv::Mat();
   }
 
-  std::unique_ptr<DeviceFill> fill_;  // null: the reference
-  std::string name_ = "reference (no OpenCL)";
-  std::string fallback_reason_;
+  DeviceChoice devices_;
   std::vector<RegionSums> sums_;
 };
 
@@ -239,17 +165,20 @@ void FillPipeline::run(const cv::Mat& bgr, const Settings& settings, const Outpu
 {
   checkImage(bgr);
   settings.check();
+  if (outputs.network)
+  {
+    checkNetwork(*outputs.network);
+    if (!outputs.window_scores)
+    {
+      throw std::invalid_argument("a network is given, but no window_scores that receive what it finds");
+    }
+  }
   implementation_->run(bgr, settings, outputs, map, times);
 }
 
-const std::string& FillPipeline::deviceName() const
+const DeviceState& FillPipeline::device() const
 {
-  return implementation_->name();
-}
-
-const std::string& FillPipeline::fallbackReason() const
-{
-  return implementation_->fallbackReason();
+  return implementation_->device();
 }
 
 std::size_t FillPipeline::bufferBytes() const

@@ -45,8 +45,9 @@ struct WindowBuffers
   GrowingBuffer beside;
   GrowingBuffer scores;
 
-  MarkerNetwork network;  ///< whose weights the buffers hold
-  cv::Size size;          ///< of the image whose levels they hold
+  bool has_tables = false;  ///< the buffers hold them
+  MarkerNetwork network;    ///< whose weights the buffers hold
+  cv::Size size;            ///< of the image whose levels they hold
 
   /** Makes room for an image of at least one pixel. @throws cl::Error if there is none. */
   void reserve(const cl::Context& context, const cv::Size& size);

@@ -44,7 +44,7 @@ class DetectorNodelet : public CheckedNodelet
     {
       detector_->setNetwork(loadMarkerNetwork(network));
     }
-    NODELET_INFO("Detecting markers on: %s", detector_->pipeline().deviceName().c_str());
+    NODELET_INFO("Detecting markers on: %s", detector_->pipeline().device().name.c_str());
     diagnostics_ = std::make_unique<Diagnostics>(getNodeHandle(), private_nh, getName(), detector_->pipeline());
     image_thread_ = std::make_unique<ImageThread>([this](const auto& image) { process(image); });
     reconfigure_server_ = std::make_unique<ReconfigureServer>(reconfigure_mutex_, private_nh);
@@ -118,7 +118,15 @@ class DetectorNodelet : public CheckedNodelet
 
   void process(const sensor_msgs::ImageConstPtr& image)
   {
+    const int failures = detector_->pipeline().device().failures;
     const std::string error = caught([&] { detect(image); });
+    const DeviceState& device = detector_->pipeline().device();
+    diagnostics_->ranOn(device);
+    if (device.failures > failures)
+    {
+      NODELET_WARN_THROTTLE(5, "The device failed: %s; the next images on: %s", device.last_failure.c_str(),
+                            device.name.c_str());
+    }
     if (!error.empty())
     {
       diagnostics_->refused(error);

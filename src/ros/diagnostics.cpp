@@ -16,10 +16,9 @@ double secondsBetween(std::chrono::steady_clock::time_point start, std::chrono::
 
 Diagnostics::Diagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name,
                          const FillPipeline& pipeline)
-    : device_(pipeline.deviceName()),
-      fallback_reason_(pipeline.fallbackReason()),
+    : device_(pipeline.device()),
       last_report_(Clock::now()),
-      report_(nh, private_nh, name, "marker detection", device_, [this](auto& status) { report(status); })
+      report_(nh, private_nh, name, "marker detection", device_.name, [this](auto& status) { report(status); })
 {
 }
 
@@ -51,6 +50,12 @@ void Diagnostics::processed(const std::vector<StepTime>& times)
   last_image_ = Clock::now();
 }
 
+void Diagnostics::ranOn(const DeviceState& device)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  device_ = device;
+}
+
 void Diagnostics::refused(const std::string& reason)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -68,9 +73,12 @@ void Diagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status)
   last_report_ = now;
   processed_reported_ = processed_;
   refused_reported_ = refused_;
+  failures_reported_ = device_.failures;
 
-  status.add("Device", device_);
-  status.add("Fallback reason", fallback_reason_);
+  status.add("Device", device_.name);
+  status.add("Fallback reason", device_.fallback_reason);
+  status.add("Device failures", device_.failures);
+  status.add("Last device failure", device_.last_failure);
   status.add("Image topic", topic_);
   status.add("Images processed", processed_);
   status.add("Images dropped", dropped_);
@@ -97,13 +105,18 @@ void Diagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper& status)
   {
     status.summaryf(DiagnosticStatus::WARN, "No image on %s for %.0f s.", topic_.c_str(), silence);
   }
+  else if (device_.failures > failures_reported_)
+  {
+    const auto level = refused_ > refused_reported_ ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
+    status.summaryf(level, "The device failed: %s.", device_.last_failure.c_str());
+  }
   else if (refused_ > refused_reported_)
   {
     status.summaryf(DiagnosticStatus::WARN, "Images refused: %s.", refusal_.c_str());
   }
-  else if (!fallback_reason_.empty())
+  else if (!device_.fallback_reason.empty())
   {
-    status.summaryf(DiagnosticStatus::WARN, "Running without OpenCL: %s", fallback_reason_.c_str());
+    status.summaryf(DiagnosticStatus::WARN, "Running on %s: %s", device_.name.c_str(), device_.fallback_reason.c_str());
   }
   else if (topic_.empty())
   {

@@ -43,6 +43,9 @@ class Diagnostics
   /** @param times of the steps of one image. */
   void processed(const std::vector<StepTime>& times);
 
+  /** What an image was processed on, or could not be. */
+  void ranOn(const DeviceState& device);
+
   /** An image could not be processed. */
   void refused(const std::string& reason);
 
@@ -52,10 +55,8 @@ class Diagnostics
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
   void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
-  const std::string device_;
-  const std::string fallback_reason_;
-
   std::mutex mutex_;
+  DeviceState device_;
   std::string topic_;
   std::string no_subscription_;   // why there is none; empty: there is, or none is asked for
   Clock::time_point last_image_;  // or the time of the subscription
@@ -67,7 +68,8 @@ class Diagnostics
   std::uint64_t refused_ = 0;
   std::uint64_t processed_reported_ = 0;
   std::uint64_t refused_reported_ = 0;
-  double rate_ = 0;  // images processed a second
+  int failures_reported_ = 0;  // of the device
+  double rate_ = 0;            // images processed a second
 
   StatusReport report_;  // the last member: it reports what stands above
 };

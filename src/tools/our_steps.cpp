@@ -39,7 +39,7 @@ OurSteps::OurSteps(const std::string& device)
 
 const std::string& OurSteps::deviceName() const
 {
-  return pipeline_->deviceName();
+  return pipeline_->device().name;
 }
 
 Contestant OurSteps::filter(Filter filter, int size) const

@@ -110,10 +110,20 @@ void addClusters(const std::vector<cv::Point>& windows, const MarkerScores* scor
   }
 }
 
-/** Of two clusters in one place the better supported one stays; the box covers both if they are of one kind. */
+void sortBySupport(std::vector<Cluster>& clusters)
+{
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const Cluster& a, const Cluster& b) { return a.support > b.support; });
+}
+
+/**
+ * Of two clusters in one place the better supported one stays; the box covers both if they are of one kind.
+ *
+ * @return best supported first.
+ */
 std::vector<Cluster> merge(std::vector<Cluster> clusters)
 {
-  std::sort(clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) { return a.support > b.support; });
+  sortBySupport(clusters);
   std::vector<Cluster> merged;
   for (const Cluster& cluster : clusters)
   {
@@ -133,6 +143,7 @@ std::vector<Cluster> merge(std::vector<Cluster> clusters)
       same->support += cluster.support;
     }
   }
+  sortBySupport(merged);
   return merged;
 }
 

@@ -98,7 +98,34 @@ MarkerNetwork readMarkerNetwork(const YamlFile& file)
   }
   return network;
 }
+
+bool isComplete(const FeedForward& network, int inputs, int max_hidden)
+{
+  if (network.hidden < 1 || network.hidden > max_hidden)
+  {
+    return false;
+  }
+  const int weights = network.hidden * (inputs + 1) + MARKER_KINDS * (network.hidden + 1);
+  return network.weights.size() == static_cast<std::size_t>(weights);
+}
 }  // namespace
+
+void checkNetwork(const MarkerNetwork& network)
+{
+  if (!isComplete(network, HAAR_FEATURES, MAX_HIDDEN))
+  {
+    throw std::invalid_argument("a network of candidates has 1 to " + std::to_string(MAX_HIDDEN) +
+                                " hidden units and all their weights; this one has " + std::to_string(network.hidden) +
+                                " and " + std::to_string(network.weights.size()) + " weights");
+  }
+  const FeedForward& gate = network.gate;
+  if (gate.hidden != 0 && !isComplete(gate, GATE_INPUTS, MAX_GATE_UNITS))
+  {
+    throw std::invalid_argument("the gate of a network of candidates has up to " + std::to_string(MAX_GATE_UNITS) +
+                                " hidden units and all their weights; this one has " + std::to_string(gate.hidden) +
+                                " and " + std::to_string(gate.weights.size()) + " weights");
+  }
+}
 
 MarkerScores markerScores(const FeedForward& network, int inputs, const float* values)
 {

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "lattice_prediction.h"
+#include "median.h"
 
 namespace omr
 {
@@ -39,9 +40,7 @@ Neighbourhood neighbourhood(const Lattice& lattice, int row, int col)
   }
   if (result.count > 0)
   {
-    const auto middle = contrasts.begin() + result.count / 2;
-    std::nth_element(contrasts.begin(), middle, contrasts.begin() + result.count);
-    result.contrast = *middle;
+    result.contrast = median(contrasts, result.count);
   }
   return result;
 }

@@ -191,13 +191,6 @@ double linearLight(double grey_level)
   return value <= .04045 ? value / 12.92 : std::pow((value + .055) / 1.055, 2.4);
 }
 
-std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around)
-{
-  std::vector<LinearColor> colors = rings;
-  colors.push_back(around);
-  return readColorKey({[&] { return colors; }}, std::vector<bool>(rings.size(), true), true);
-}
-
 std::string readColorKey(const std::vector<ColorMeasurement>& ways, const std::vector<bool>& seen, bool is_sharp)
 {
   const std::size_t count = seen.size();

@@ -15,6 +15,12 @@ using LinearColor = cv::Vec3d;
 double linearLight(double grey_level);
 
 /**
+ * Measures the rings from the inside out, as if under one light, and last what is around the outermost: paper or
+ * anything else.
+ */
+using ColorMeasurement = std::function<std::vector<LinearColor>()>;
+
+/**
  * Reads the colours of rings by the paper's key (section 3.3): W white, P black, R red, G green, B blue, ? unknown.
  *
  * Each ring is judged relative to the white of its place, not by absolute levels, which gave the paper 83.5 %: white
@@ -22,17 +28,8 @@ double linearLight(double grey_level);
  * that lifts all of them may be part of the explanation. Neighbours differ. A ring whose second best letter explains
  * the whole nearly as well, or which no letter explains, is '?'.
  *
- * @param rings  from the inside out, as if under one light.
- * @param around what surrounds the outermost ring; paper or anything else.
- */
-std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around);
-
-/** Measures the rings from the inside out, and last what is around them. */
-using ColorMeasurement = std::function<std::vector<LinearColor>()>;
-
-/**
- * The same where the colours can be measured in several ways: the way that one key explains best decides, and a letter
- * that another way would change at little cost is '?'.
+ * Where the colours can be measured in several ways, the way that one key explains best decides, and a letter that
+ * another way would change at little cost is '?'.
  *
  * @param ways     are taken in turn until a key explains one well: nearly always the first.
  * @param seen     of each ring: false where something hides it; it is '?' and tells nothing.

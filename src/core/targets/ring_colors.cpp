@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "median.h"
 #include "ring_deblur.h"
 
 namespace omr
@@ -36,14 +37,12 @@ class Values
   }
 
   /** 0 without values. */
-  cv::Vec3d median()
+  cv::Vec3d middle()
   {
     cv::Vec3d medians;
-    for (int c = 0; c < 3 && !values_[c].empty(); ++c)
+    for (int c = 0; c < 3 && !empty(); ++c)
     {
-      const auto middle = values_[c].begin() + static_cast<std::ptrdiff_t>(values_[c].size() / 2);
-      std::nth_element(values_[c].begin(), middle, values_[c].end());
-      medians[c] = *middle;
+      medians[c] = median(values_[c], static_cast<int>(values_[c].size()));
     }
     return medians;
   }
@@ -104,8 +103,8 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
         steps.add(logLight(after) - logLight(before));
       }
     }
-    chained[ring] = ring > 0 ? chained[ring - 1] + steps.median() : cv::Vec3d();
-    medians[ring] = colors.empty() ? cv::Vec3d() : logLight(LogColor(colors.median()));
+    chained[ring] = ring > 0 ? chained[ring - 1] + steps.middle() : cv::Vec3d();
+    medians[ring] = colors.empty() ? cv::Vec3d() : logLight(LogColor(colors.middle()));
     if ((ring == 0 || boundaries[ring - 1].shown) && (ring + 1 == count || boundaries[ring].shown))
     {
       level += medians[ring] - chained[ring];

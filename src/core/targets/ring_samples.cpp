@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "median.h"
 #include "ring_fit.h"
 
 namespace omr
@@ -17,7 +18,7 @@ std::vector<cv::Vec3d> medianProfile(const RingProfile& profile, int count)
   std::vector<cv::Vec3d> medians;
   for (int i = 0; i < count; ++i)
   {
-    cv::Vec3d median;
+    cv::Vec3d middle;
     for (int c = 0; c < 3; ++c)
     {
       std::array<float, ANGLES> values;
@@ -33,10 +34,9 @@ std::vector<cv::Vec3d> medianProfile(const RingProfile& profile, int count)
       {
         return medians;
       }
-      std::nth_element(values.begin(), values.begin() + seen / 2, values.begin() + seen);
-      median[c] = values[seen / 2];
+      middle[c] = median(values, seen);
     }
-    medians.push_back(toHue(median));
+    medians.push_back(toHue(middle));
   }
   return medians;
 }

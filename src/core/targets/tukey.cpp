@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -45,9 +46,7 @@ double tukeyLimit(const std::vector<double>& errors, std::vector<double>& sizes)
 {
   sizes.resize(errors.size());
   std::transform(errors.begin(), errors.end(), sizes.begin(), [](double error) { return std::abs(error); });
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * *middle);
+  return TUKEY * std::max(SMALLEST_DEVIATION, 1.48 * median(sizes, static_cast<int>(sizes.size())));
 }
 
 double tukeyRms(const std::vector<double>& errors, double limit)
