@@ -38,10 +38,10 @@ struct Sighting
  *
  * Every seen board starts a candidate for every board of its size in the parts file, in every orientation that its
  * squares allow; the part's other markers are then looked for where the pose expects them. Markers that are there speak
- * for the candidate, targets of other colours there against it; one that just is not seen does not count. More markers
- * beat fewer; among equals the reprojection error decides, if it does (isRival()), else all are reported. Nothing is
- * excluded by a marker that speaks against it alone: that may be misread. What only such markers remain of is not
- * reported: it is a foreign thing with a like board.
+ * for the candidate, targets of other colours there against it, and so do boards that lie near their place but do not
+ * fit it; one that just is not seen does not count. More markers beat fewer; among equals the reprojection error
+ * decides, if it does (isRival()), else all are reported. Nothing is excluded by a marker that speaks against it alone:
+ * that may be misread. What only such markers remain of is not reported: it is a foreign thing with a like board.
  *
  * A board whose size is not certain, or a section of one, carries a part only together with another marker of it, and
  * as any section of the part's board. A part is at as many places as it has copies: where more groups of markers carry

@@ -44,11 +44,14 @@ struct Pose
  * Pose from at least four pairs: planar starts (IPPE, Collins & Bartoli 2014; depth across the best plane is left out),
  * each refined over all pairs by Levenberg-Marquardt, outliers rejected.
  *
+ * @param starts further ones, as the pose of some of the pairs: of points far from any plane no planar start may lead
+ *               to a pose.
  * @return the local minima, least chi_square first: none if no pose explains the pairs, two if both of a flat, small or
  *         distant part do. The second is a flip, no rival, where isRival() says no.
  * @throws std::invalid_argument for fewer than four pairs or a sigma that is not positive.
  */
-std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& camera);
+std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& camera,
+                            const std::vector<cv::Affine3d>& starts = {});
 
 /** Refines one pose over other or more pairs. @return false if it does not converge to a pose in front of the camera.
  */

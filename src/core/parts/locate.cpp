@@ -29,7 +29,7 @@ bool excludes(const PartMatch& best, const PartMatch& other)
   if (best.score() != other.score())
   {
     // Only a marker that speaks for one excludes the other: that one speaks against it may be the marker's fault.
-    return best.score() > 0;
+    return best.score() > 0 || best.supports() > other.supports();
   }
   const bool same_pixels = best.checkerboards == other.checkerboards && best.targets == other.targets;
   return same_pixels && !isRival(best.poses.front(), other.poses.front());
@@ -68,7 +68,7 @@ Reading read(int seed, const SeenMarkers& seen, const std::vector<Part>& parts, 
   matches.erase(
       std::remove_if(matches.begin() + 1, matches.end(), [&](const PartMatch& other) { return excludes(best, other); }),
       matches.end());
-  const auto is_refuted = [](const PartMatch& match) { return match.contradictions > 0 && match.score() <= 0; };
+  const auto is_refuted = [](const PartMatch& match) { return match.contradictions > 0 && match.supports() == 0; };
   if (std::all_of(matches.begin(), matches.end(), is_refuted))
   {
     matches.clear();

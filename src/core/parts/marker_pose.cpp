@@ -21,9 +21,10 @@ double smoothing(const Pose& pose)
 }
 }  // namespace
 
-std::vector<Pose> solveMarkers(const std::vector<PointPair>& pairs, const Camera& camera)
+std::vector<Pose> solveMarkers(const std::vector<PointPair>& pairs, const Camera& camera,
+                               const std::vector<cv::Affine3d>& starts)
 {
-  std::vector<Pose> poses = solvePose(pairs, camera);
+  std::vector<Pose> poses = solvePose(pairs, camera, starts);
   for (Pose& pose : poses)
   {
     const double variance = std::max(1.0, smoothing(pose) * pose.variance_factor);

@@ -26,7 +26,8 @@ constexpr double UNPLACED_SIGMA = 0.3;
  *
  * @return the local minima that the residuals do not tell apart: one, two where the flip is a rival, or none.
  */
-std::vector<Pose> solveMarkers(const std::vector<PointPair>& pairs, const Camera& camera);
+std::vector<Pose> solveMarkers(const std::vector<PointPair>& pairs, const Camera& camera,
+                               const std::vector<cv::Affine3d>& starts = {});
 
 }  // namespace omr
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <string_view>
 
 #include "marker_pose.h"
 #include "reprojection.h"
+#include "target_colors.h"
 #include "target_pair.h"
 
 namespace omr
@@ -16,11 +16,15 @@ namespace
 // How far from its place a marker is looked for, in target radii and squares: half way to where it would be another.
 constexpr double TARGET_REACH = 0.5;
 constexpr double BOARD_REACH = 0.5;
-// How near it must lie to the pose that it helped to find, to be the part's and not another's that stands there: a
-// target in radii, a board's corners, on average, in squares.
-constexpr double TARGET_FIT = 0.1;
-constexpr double BOARD_FIT = 0.1;
-constexpr double MIN_FIT = 1;  // [px]; markers far away or blurred are no better
+// How near it must lie to the pose that it helped to find, to be the part's and not another's that stands there.
+constexpr double TARGET_FIT = 0.1;    // radii
+constexpr double MIN_TARGET_FIT = 1;  // [px]; those far away or blurred are no better
+// A board's corners on average, and those of the board it was predicted from: the pose of two boards that disagree is
+// between both and right for neither. One that is 4 mm off its place in the file moved it by 13 mm at 1 m, and left
+// 0.6 px.
+constexpr double BOARD_FIT = 0.5;        // [px]
+constexpr double BLURRED_BOARD_FIT = 3;  // and of the error that the first board leaves by itself
+constexpr double SAME_RAY = 1e-3;        // on the plane z = 1
 
 /** A marker that may be the part's: its pairs, and how far the pose may leave them. */
 struct Found
@@ -32,7 +36,7 @@ struct Found
 };
 
 /** Pixel of a point in the camera's frame; none if it lies behind the camera. */
-std::optional<cv::Point2d> predict(const cv::Point3d& seen, const Camera& camera)
+std::optional<cv::Point2d> pixelOf(const cv::Point3d& seen, const Camera& camera)
 {
   if (!(seen.z > 0))
   {
@@ -41,48 +45,26 @@ std::optional<cv::Point2d> predict(const cv::Point3d& seen, const Camera& camera
   return camera.project({seen}).front();
 }
 
-/** The length in pixels that `length` metres have at a point of the part. */
+/** The same; none if it lies so far aside that the distortion, which is measured inside the image, folds it back. */
+std::optional<cv::Point2d> predict(const cv::Point3d& seen, const Camera& camera)
+{
+  const std::optional<cv::Point2d> pixel = pixelOf(seen, camera);
+  if (!pixel)
+  {
+    return std::nullopt;
+  }
+  const cv::Point2d ray(seen.x / seen.z, seen.y / seen.z);
+  const bool is_same = cv::norm(camera.normalize({*pixel}).front() - ray) < SAME_RAY * (1 + cv::norm(ray));
+  return is_same ? pixel : std::nullopt;
+}
+
+/** The length in pixels that `length` metres across the camera's axis have at a point of the part, on average. */
 double pixels(double length, const cv::Affine3d& camera_part, const cv::Point3d& point, const Camera& camera)
 {
-  return camera.focalLength() * length / (camera_part * point).z;
-}
-
-/** What the colours of a target say of the one that the part has in its place. */
-enum class Colors
-{
-  agree,    ///< unknown letters agree with all
-  unclear,  ///< a ring lost or found at the middle or the rim: PRPG for PGRPG at 4 px a ring, ?PGRPG or GRGP half
-            ///< hidden
-  contradict
-};
-
-bool agree(std::string_view seen, std::string_view expected)
-{
-  return std::equal(seen.begin(), seen.end(), expected.begin(), expected.end(),
-                    [](char a, char b) { return a == b || a == '?'; });
-}
-
-Colors compare(std::string_view seen, std::string_view expected)
-{
-  if (agree(seen, expected))
-  {
-    return Colors::agree;
-  }
-  if (seen.size() > expected.size())
-  {
-    const bool is_inner = agree(seen.substr(0, expected.size()), expected);
-    const bool is_outer = agree(seen.substr(seen.size() - expected.size()), expected);
-    return is_inner || is_outer ? Colors::unclear : Colors::contradict;
-  }
-  // An outermost ring that is hidden.
-  if (seen.size() > 2 && agree(seen, expected.substr(0, seen.size())))
-  {
-    return Colors::unclear;
-  }
-  // Of rings that run together the innermost letter is a mixture.
-  const bool outer_agree = seen.size() > 2 && seen.size() < expected.size() &&
-                           agree(seen.substr(1), expected.substr(expected.size() - seen.size() + 1));
-  return outer_agree ? Colors::unclear : Colors::contradict;
+  std::vector<cv::Matx23d> derivatives;
+  camera.project({camera_part * point}, &derivatives);
+  const cv::Matx23d& d = derivatives.front();
+  return length * std::sqrt(std::abs(d(0, 0) * d(1, 1) - d(0, 1) * d(1, 0)));
 }
 
 /** The free target nearest to a pixel; -1 if none lies within reach. */
@@ -118,14 +100,14 @@ void findTargets(const Part& part, const cv::Affine3d& camera_part, const SeenMa
     {
       continue;
     }
-    const Colors colors = compare(seen.targets[index].colors, target.colors);
-    contradictions += colors == Colors::contradict ? 1 : 0;
-    if (colors == Colors::agree)
+    const ColorMatch colors = compareColors(seen.targets[index].colors, target.colors);
+    contradictions += colors == ColorMatch::contradict ? 1 : 0;
+    if (colors == ColorMatch::agree)
     {
       found.push_back({false,
                        index,
                        {targetPair(part, target, seen.targets[index], camera)},
-                       std::max(MIN_FIT, TARGET_FIT * radius)});
+                       std::max(MIN_TARGET_FIT, TARGET_FIT * radius)});
     }
   }
 }
@@ -154,6 +136,11 @@ std::vector<PointPair> boardPairs(const Checkerboard& seen, const std::vector<cv
     }
   }
   return pairs;
+}
+
+double boardFit(const PartHypothesis& hypothesis)
+{
+  return std::max(BOARD_FIT, BLURRED_BOARD_FIT * hypothesis.pose.rms_error);
 }
 
 /** Whether the camera sees the printed side. */
@@ -194,7 +181,7 @@ void findBoards(const PartHypothesis& hypothesis, int seed, const SeenMarkers& s
       std::vector<PointPair> pairs = boardPairs(seen.checkerboards[i], points, predicted, BOARD_REACH * square);
       if (!pairs.empty())
       {
-        found.push_back({true, index, std::move(pairs), std::max(MIN_FIT, BOARD_FIT * square)});
+        found.push_back({true, index, std::move(pairs), boardFit(hypothesis)});
         break;
       }
     }
@@ -211,45 +198,71 @@ std::vector<PointPair> allPairs(const PartHypothesis& hypothesis, const std::vec
   return pairs;
 }
 
-/** Whether a marker lies where a pose says. */
-bool fits(const Found& marker, const cv::Affine3d& camera_part, const Camera& camera)
+/** How far a marker lies from where a pose says, over its tolerance. */
+double misfit(const Found& marker, const cv::Affine3d& camera_part, const Camera& camera)
 {
   double sum = 0;
   for (const PointPair& pair : marker.pairs)
   {
-    const std::optional<cv::Point2d> pixel = predict(seenPoint(camera_part, pair), camera);
+    const std::optional<cv::Point2d> pixel = pixelOf(seenPoint(camera_part, pair), camera);
     sum += pixel ? cv::norm(*pixel - pair.pixel) : std::numeric_limits<double>::infinity();
   }
-  return sum / static_cast<double>(marker.pairs.size()) < marker.tolerance;
+  return sum / (static_cast<double>(marker.pairs.size()) * marker.tolerance);
+}
+
+/** Those that do not fit to the end; where the first board does not fit, or nothing does, the one that fits worst. */
+std::vector<Found>::iterator separateMisfits(const Found& first, const std::vector<Pose>& poses,
+                                             const cv::Affine3d& predicted, const Camera& camera,
+                                             std::vector<Found>& found)
+{
+  const cv::Affine3d& camera_part = poses.empty() ? predicted : poses.front().camera_part;
+  if (!poses.empty() && misfit(first, camera_part, camera) < 1)
+  {
+    return std::stable_partition(found.begin(), found.end(),
+                                 [&](const Found& marker) { return misfit(marker, camera_part, camera) < 1; });
+  }
+  const auto worst = std::max_element(found.begin(), found.end(), [&](const Found& a, const Found& b) {
+    return misfit(a, camera_part, camera) < misfit(b, camera_part, camera);
+  });
+  return std::rotate(worst, worst + 1, found.end());
 }
 }  // namespace
 
+int PartMatch::supports() const
+{
+  return static_cast<int>(checkerboards.size() + targets.size()) - 1;
+}
+
 int PartMatch::score() const
 {
-  return static_cast<int>(checkerboards.size() + targets.size()) - 1 - contradictions;
+  return supports() - contradictions;
 }
 
 PartMatch matchPart(const PartHypothesis& hypothesis, int seed, const SeenMarkers& seen, const Camera& camera)
 {
   PartMatch match;
   match.part = hypothesis.part;
+  const cv::Affine3d& predicted = hypothesis.pose.camera_part;
+  const Found first{true, seed, hypothesis.pairs, boardFit(hypothesis)};
   std::vector<Found> found;
   findBoards(hypothesis, seed, seen, camera, found);
-  findTargets(*hypothesis.part, hypothesis.pose.camera_part, seen, camera, found, match.contradictions);
+  findTargets(*hypothesis.part, predicted, seen, camera, found, match.contradictions);
   match.poses = {hypothesis.pose};
-  // A marker that does not fit is left out: it may be another part's, or badly seen.
+  // A marker that does not fit is left out. A target may be another part's or badly seen; a board whose corners all lie
+  // near their places is the part's, so something is not as the file says.
   for (bool settled = found.empty(); !settled;)
   {
-    match.poses = solveMarkers(allPairs(hypothesis, found), camera);
-    if (match.poses.empty())
+    match.poses = solveMarkers(allPairs(hypothesis, found), camera, {predicted});
+    const auto misfits = separateMisfits(first, match.poses, predicted, camera, found);
+    match.contradictions +=
+        static_cast<int>(std::count_if(misfits, found.end(), [](const Found& marker) { return marker.is_board; }));
+    settled = misfits == found.end();
+    found.erase(misfits, found.end());
+    if (found.empty())
     {
-      return match;
+      match.poses = {hypothesis.pose};
+      settled = true;
     }
-    const cv::Affine3d& camera_part = match.poses.front().camera_part;
-    const auto misfit = std::stable_partition(found.begin(), found.end(),
-                                              [&](const Found& marker) { return fits(marker, camera_part, camera); });
-    settled = misfit == found.end();
-    found.erase(misfit, found.end());
   }
   match.checkerboards = {seed};
   for (const Found& marker : found)

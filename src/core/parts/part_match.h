@@ -27,9 +27,12 @@ struct PartMatch
   std::vector<Pose> poses;         ///< of all markers together; two where the flip is a rival; empty: none fits
   std::vector<int> checkerboards;  ///< indices, ascending
   std::vector<int> targets;        ///< indices, ascending
-  int contradictions = 0;          ///< targets of other colours where the part has one
+  int contradictions = 0;          ///< targets of other colours, boards a little off, where the part has them
 
-  /** Markers beside the first board that speak for the part, less those that speak against it. */
+  /** Markers beside the first board that speak for the part. */
+  int supports() const;
+
+  /** The same, less those that speak against it. */
   int score() const;
 };
 

@@ -150,11 +150,14 @@ bool refinePose(const std::vector<PointPair>& pairs, const Camera& camera, Pose&
   return assess(pairs, problem, scale, pose);
 }
 
-std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& camera)
+std::vector<Pose> solvePose(const std::vector<PointPair>& pairs, const Camera& camera,
+                            const std::vector<cv::Affine3d>& starts)
 {
   check(pairs);
+  std::vector<cv::Affine3d> all_starts = planarStarts(pairs, camera);
+  all_starts.insert(all_starts.end(), starts.begin(), starts.end());
   std::vector<Pose> poses;
-  for (const cv::Affine3d& start : planarStarts(pairs, camera))
+  for (const cv::Affine3d& start : all_starts)
   {
     Pose pose;
     pose.camera_part = start;
