@@ -37,6 +37,30 @@ Lattice grow(const Frame& frame, const LocalFrame& seed)
   return lattice;
 }
 
+/** How far a sheet that ripples moves a point of the picture [px]. */
+cv::Point2f ripple(const cv::Point2f& point, float amplitude)
+{
+  return amplitude *
+         cv::Point2f(std::sin(point.x / 27 + 1) + std::sin(point.y / 24), std::sin((point.x + point.y) / 30));
+}
+
+/** The picture of a sheet that ripples. */
+cv::Mat rippled(const cv::Mat& picture, float amplitude)
+{
+  cv::Mat places(picture.size(), CV_32FC2);
+  for (int y = 0; y < places.rows; ++y)
+  {
+    for (int x = 0; x < places.cols; ++x)
+    {
+      const cv::Point2f here(static_cast<float>(x), static_cast<float>(y));
+      places.at<cv::Point2f>(y, x) = here - ripple(here, amplitude);
+    }
+  }
+  cv::Mat result;
+  cv::remap(picture, result, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  return result;
+}
+
 /** Root mean square distance of the lattice's nodes to the truth [px]. */
 double rmsOf(const Lattice& lattice, const cv::Matx33d& board)
 {
@@ -151,6 +175,37 @@ TEST(Corners, whatCoversAPartOfOneBendsNone)
     }
   }
   EXPECT_LT(std::sqrt(sum / count), 0.04) << "with equal weights 0.05";
+}
+
+TEST(Corners, ofASheetThatRipplesAreWhereItsPictureHasThem)
+{
+  const cv::Matx33d board = omr::test::boardHomography(7, 10, {300, 220}, 30, 3, 0);
+  Render render({600, 440});
+  render.addBoard(7, 10, board);
+  for (const float amplitude : {0.3F, 0.6F, 0.9F})
+  {
+    const Frame frame = omr::makeFrame(rippled(render.picture(), amplitude));
+    Lattice lattice = grow(frame, frameAt(board, 4, 3));
+    ASSERT_EQ(cv::Size(9, 6), lattice.box.size()) << amplitude;
+    const std::vector<bool> seen = refineCorners(frame, lattice);
+    EXPECT_EQ(54, std::count(seen.begin(), seen.end(), true)) << amplitude;
+    double sum = 0;
+    for (int i = 0; i < 6; ++i)
+    {
+      for (int j = 0; j < 9; ++j)
+      {
+        const cv::Point2f flat = omr::test::project(board, j + 1, i + 1);
+        cv::Point2f truth = flat;
+        for (int step = 0; step < 20; ++step)
+        {
+          truth = flat + ripple(truth, amplitude);
+        }
+        const cv::Point2f error = lattice.at(lattice.box.y + i, lattice.box.x + j).position - truth;
+        sum += error.dot(error);
+      }
+    }
+    EXPECT_LT(std::sqrt(sum / 54), 0.11) << amplitude << ": drawn to a smooth surface 0.19, 0.39, 0.58";
+  }
 }
 
 TEST(CornerFit, findsTheCornerInNoiseBlurAndUnevenLight)

@@ -11,8 +11,8 @@ namespace omr
 {
 /**
  * Refines all corners of the lattice to sub-pixel accuracy, then draws them towards a smooth surface through all
- * (homography and cubic polynomial) when that explains them to within the noise. Corners that something covers in part
- * count little in it.
+ * (homography and cubic polynomial), the less the more alike the residuals of neighbours are: what they have in common
+ * is the sheet's shape. Corners that something covers in part count little in it.
  *
  * Nodes of the box that were not found, or whose corner the surface refutes, get the surface's position; where
  * there is none, or it explains too little, that of the corners around them.
