@@ -10,8 +10,9 @@
 /** The planes of blocks of 2 x 2 cells, in the order of gateInputs() in haar_features.h. */
 #define BLOCK_PLANES 6
 
-/** Cells that a lane computes at a time: 16 KiB with their pixels. */
-#define CHUNK 128
+/** Cells that a lane computes at a time, a multiple of 32: on a CPU 16 KiB with their pixels; on a GPU few, so that a
+ * row of 1920 px has work for half of the lanes and not for an eighth. */
+#define CHUNK (LANES == 1 ? 128 : 32)
 
 /** Blocks in a row of a plane: first those in even columns, then those in odd ones, which the gate reads apart; so many
  * of either, a multiple of 8 since they are computed 16 at a time. */
