@@ -16,7 +16,7 @@ using omr::Settings;
 
 namespace
 {
-constexpr std::size_t STEP = std::size_t(1) << 36;  // bytes from row to row
+constexpr std::size_t STEP = std::size_t(1) << 34;  // bytes from row to row
 const cv::Size SIZE(64, 32);
 
 /** Two squares, in rows that no device takes. */

@@ -1,5 +1,7 @@
 #include "device_choice.h"
 
+#include <utility>
+
 #include "kernel_cache.h"
 
 namespace omr

@@ -192,17 +192,17 @@ void DeviceFill::finish()
   bgr_.release();
 }
 
-void DeviceFill::abandon() noexcept
+void DeviceFill::abandon()
 {
   try
   {
     queue_.finish();
+    image_ = cl::Buffer();
   }
   catch (const cl::Error&)
   {
     // A queue that cannot be waited for is broken, and nothing is at work in it.
   }
-  image_ = cl::Buffer();
   bgr_.release();
 }
 

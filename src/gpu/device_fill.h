@@ -99,7 +99,7 @@ class DeviceFill
   void finish();
 
   /** The same after an error, further ones of which do not count. */
-  void abandon() noexcept;
+  void abandon();
 
   /** Device time of the steps since loadImage(), each with what precedes it [ms]; 0 for a step that did not run. */
   struct Times
