@@ -257,7 +257,9 @@ void DeviceFill::warmUp()
     }
   }
   windows_.reset();
-  edge_image_ = label_image_ = sweep_labels_ = GrowingBuffer();
+  edge_image_.free();
+  label_image_.free();
+  sweep_labels_.free();
 }
 
 }  // namespace omr

@@ -52,6 +52,8 @@ class GrowingBuffer
   /** Once an image, before the first use: many images without any use free it. */
   void rest();
 
+  void free();
+
   const cl::Buffer& operator*() const
   {
     return buffer_;
@@ -63,8 +65,6 @@ class GrowingBuffer
   }
 
  private:
-  void free();
-
   cl::Buffer buffer_;
   std::size_t bytes_ = 0;
   int spacious_images_ = 0;  // in a row
