@@ -34,6 +34,8 @@ def main():
     parser.add_argument('--frame', default='camera', help='frame_id of the images')
     parser.add_argument('--rate', type=float, default=2., help='images a second')
     arguments = parser.parse_args()
+    if cv2.haveImageReader(arguments.bag):
+        sys.exit("make_bag: the bag would overwrite the image '%s'; name the bag before the images" % arguments.bag)
     with rosbag.Bag(arguments.bag, 'w', compression='lz4') as bag:
         stamp = rospy.Time(1)
         bag.write(arguments.topic + '_file', String(''), stamp)

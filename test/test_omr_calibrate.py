@@ -95,6 +95,16 @@ class OmrCalibrate(unittest.TestCase):
             self.assertEqual(2, done.returncode, option)
             self.assertIn('disk full', done.stderr)
 
+    def test_a_forgotten_output_costs_no_photograph(self):
+        with open(self.images[0], 'rb') as file:
+            before = file.read()
+        for option in ('--output', '--mrcal'):
+            result = self.calibrate(option, *self.images)
+            self.assert_fails("would overwrite the image '%s'" % self.images[0], result)
+            self.assertEqual('', result.stdout)
+            with open(self.images[0], 'rb') as file:
+                self.assertEqual(before, file.read())
+
     def test_names_that_the_files_cannot_hold(self):
         done = run('--checkerboard', '7x10', '--square', '.02', '--name', 'cell 2: left', *self.images)
         self.assertEqual(2, done.returncode)

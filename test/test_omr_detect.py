@@ -88,6 +88,32 @@ class OmrDetect(unittest.TestCase):
         with open(self.image, 'rb') as file:
             self.assertEqual(before, file.read())
 
+    def test_a_forgotten_output_costs_no_photograph(self):
+        second = self.write_image('a/second.jpg', 100, 80)
+        os.symlink(self.image, self.path('link'))
+        for named in (self.image, self.path('link'), second):
+            with open(named, 'rb') as file:
+                before = file.read()
+            done = run('--json', named, second)  # as --json a/* without its - or file
+            self.assertEqual((2, ''), (done.returncode, done.stdout))
+            self.assertIn("the output would overwrite the image '%s'; name another file" % named, done.stderr)
+            with open(named, 'rb') as file:
+                self.assertEqual(before, file.read())
+
+    def test_output_of_an_earlier_run_is_replaced(self):
+        for _ in range(2):
+            done = run('--json', self.path('out.jsonl'), '--overlay', self.path('out'), self.image)
+            self.assertEqual((0, ''), (done.returncode, done.stderr))
+        with open(self.path('out.jsonl')) as file:
+            self.assertEqual(1, len(file.readlines()))
+
+    def test_a_refused_overlay_leaves_the_json_of_an_earlier_run(self):
+        with open(self.path('out.jsonl'), 'w') as file:
+            file.write('earlier')
+        self.assertEqual(2, run('--json', self.path('out.jsonl'), '--overlay', self.path('a'), self.image).returncode)
+        with open(self.path('out.jsonl')) as file:
+            self.assertEqual('earlier', file.read())
+
     def test_a_name_that_no_file_can_have_is_told_and_the_others_are_processed(self):
         done = run('--json', '-', self.path('x' * 300 + '.png'), self.image)
         self.assertEqual(1, done.returncode)

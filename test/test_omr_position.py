@@ -98,6 +98,11 @@ class OmrPosition(unittest.TestCase):
             answers = [json.loads(line) for line in file]
         self.assertEqual([1, 0], [len(answer['parts']) for answer in answers])
 
+    def test_a_forgotten_output_costs_no_photograph(self):
+        image = self.write('whole.png', self.whole)
+        self.assert_fails("would overwrite the image '%s'" % image, self.run_tool('--json', image, image))
+        self.assertTrue((cv2.imread(image) == self.whole).all())
+
     def test_image_of_another_size_and_no_image(self):
         small = self.write('small.png', cv2.resize(self.whole, (640, 480)))
         good = self.write('whole.png', self.whole)

@@ -18,7 +18,9 @@ def run(*command):
 
 class TrainTest(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
         self.photographs = os.path.join(self.folder, 'photographs')
         os.makedirs(os.path.join(self.photographs, 'site'))
         random = np.random.default_rng(1)
@@ -73,6 +75,11 @@ class TrainTest(unittest.TestCase):
         done = run(TRAIN, '--output', '/nowhere/a.yaml', self.photographs)
         self.assertEqual(2, done.returncode)
         self.assertIn('/nowhere/a.yaml', done.stderr)
+        photograph = os.path.join(self.photographs, 'site', '0.png')
+        done = run(TRAIN, '--output', photograph, self.photographs)
+        self.assertEqual(2, done.returncode)
+        self.assertIn("would overwrite the image '%s'" % photograph, done.stderr)
+        self.assertIsNotNone(cv2.imread(photograph))
         self.assertEqual(2, run(TRAIN, self.photographs).returncode)
         self.assertEqual(2, run(TRAIN, '--output', 'a.yaml', '--hidden', '0', self.photographs).returncode)
 

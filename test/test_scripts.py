@@ -101,6 +101,14 @@ class Scripts(unittest.TestCase):
         self.assertEqual(0.25, (images[1].header.stamp - images[0].header.stamp).to_sec())
         self.assertEqual(['', '0.png', '1.png', ''], names)
 
+    def test_a_forgotten_bag_costs_no_image(self):
+        image = self.path('0.png')
+        self.assertTrue(cv2.imwrite(image, np.full((20, 30, 3), 10, np.uint8)))
+        result = self.run_script('make_bag.py', image, image)
+        self.assertEqual(1, result.returncode)
+        self.assertIn("would overwrite the image '%s'" % image, result.stderr)
+        self.assertIsNotNone(cv2.imread(image))
+
     def test_an_image_without_an_answer_fails_the_report(self):
         self.make_bag()
         with rosbag.Bag(self.path('out.bag'), 'w'):

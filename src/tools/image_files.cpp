@@ -29,8 +29,24 @@ cv::Mat readImage(const std::string& name)
   return image;
 }
 
+void refuseToOverwrite(const std::string& image, const std::string& way_out)
+{
+  throw std::invalid_argument("the output would overwrite the image '" + image + "'; " + way_out);
+}
+
+void refuseImage(const std::string& output)
+{
+  std::error_code ignored;  // what is not there is nothing to lose; to read from a pipe would empty it
+  if (std::filesystem::is_regular_file(output, ignored) && cv::haveImageReader(output))
+  {
+    refuseToOverwrite(output,
+                      "name another file for it: was its name, or - after --json, forgotten before the images?");
+  }
+}
+
 std::ofstream openOutput(const std::string& name, std::ios::openmode mode)
 {
+  refuseImage(name);
   std::ofstream file(name, mode);
   if (!file)
   {

@@ -12,14 +12,22 @@ namespace omr
 /** An image file, BGR, turned as its EXIF data ask. @throws std::invalid_argument with the reason. */
 cv::Mat readImage(const std::string& name);
 
-/** @throws std::runtime_error if it cannot be written. */
+/** Refuses to write over an image. @param way_out what to do instead. @throws std::invalid_argument */
+[[noreturn]] void refuseToOverwrite(const std::string& image, const std::string& way_out);
+
+/** Refuses a name that an image has, for an output that is none: where the output's own name is forgotten, as in
+ * "--json *.png", the first photograph stands in its place. @throws std::invalid_argument */
+void refuseImage(const std::string& output);
+
+/** For an output that is no image. @throws std::invalid_argument if an image has the name; std::runtime_error if it
+ * cannot be written. */
 std::ofstream openOutput(const std::string& name, std::ios::openmode mode = std::ios::out);
 
-/** A file that has its name only once it is finished: until then what was there stays. */
+/** A file, no image, that has its name only once it is finished: until then what was there stays. */
 class NewFile
 {
  public:
-  /** @throws std::runtime_error if it cannot be written. */
+  /** @throws as openOutput(). */
   explicit NewFile(const std::string& name);
 
   NewFile(const NewFile&) = delete;

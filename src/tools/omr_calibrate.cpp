@@ -127,6 +127,8 @@ omr::ExitCode calibrateAll(const Options& options)
   {
     checkMrcalNames(options.images);
   }
+  omr::refuseImage(options.output);  // before the work
+  omr::refuseImage(options.mrcal);
   omr::Detector detector(options.detector.device);
   Session session;
   omr::ExitCode result = omr::SUCCESS;

@@ -71,8 +71,7 @@ void checkOverlays(const std::string& folder, const std::vector<std::string>& na
     const std::filesystem::path overlay = std::filesystem::canonical(std::filesystem::path(folder) / name, ignored);
     if (originals.count(overlay) > 0)
     {
-      throw std::invalid_argument("the overlay would overwrite the image '" + overlay.string() +
-                                  "'; name another folder for --overlay");
+      omr::refuseToOverwrite(overlay, "name another folder for --overlay");
     }
   }
 }
@@ -177,21 +176,18 @@ omr::ExitCode detectAll(const Options& options)
   {
     detector.setNetwork(omr::loadMarkerNetwork(options.network));
   }
+  const std::vector<std::string> overlay_names = overlayNames(options.images);
+  if (!options.overlay.empty())
+  {
+    createFolder(options.overlay);
+    checkOverlays(options.overlay, overlay_names, options.images);
+  }
   std::ofstream file;
   if (!options.json.empty() && options.json != "-")
   {
     file = omr::openOutput(options.json);
   }
-  if (!options.overlay.empty())
-  {
-    createFolder(options.overlay);
-  }
   std::ostream& json = file.is_open() ? file : std::cout;
-  const std::vector<std::string> overlay_names = overlayNames(options.images);
-  if (!options.overlay.empty())
-  {
-    checkOverlays(options.overlay, overlay_names, options.images);
-  }
   omr::ExitCode result = omr::SUCCESS;
   for (std::size_t i = 0; i < options.images.size(); ++i)
   {
