@@ -84,6 +84,24 @@ TEST(Parts, targetMayEndInWhiteOnDarkGround)
             "RBW");
 }
 
+TEST(Parts, markersMayLieTensOfMetresApartWhereOneIsLarge)
+{
+  const std::string target = "[{colors: RGB, ring: 0.01, xyz: [27, 0, 0]}]";
+  EXPECT_EQ(parse(partWith("[" + BOARD + "]", target))[0].targets.size(), 1U);
+  const std::string small = "{rows: 5, cols: 7, square: 0.01}";
+  EXPECT_NE(complaint(partWith("[" + small + "]", target)), "");
+  // Of a target as well as of a board.
+  const std::string large = "[{colors: RGB, ring: 0.03, xyz: [27, 0, 0]}]";
+  EXPECT_EQ(parse(partWith("[" + small + "]", large))[0].targets.size(), 1U);
+}
+
+TEST(Parts, millimetresAreFoundHoweverTheMarkersLie)
+{
+  // The least that markers beside each other are apart: half a short side and half a target, here of 15 and 2 mm.
+  EXPECT_NE(complaint(partWith("[{rows: 5, cols: 21, square: 0.003}]", "[{colors: RG, ring: 0.0005, xyz: [0, 9, 0]}]")),
+            "");
+}
+
 TEST(Parts, copies)
 {
   EXPECT_EQ(parse(partWith("[" + BOARD + "]"))[0].copies, 1);
@@ -147,7 +165,8 @@ TEST(Parts, mistakesAreNamed)
       {"parts: [", ":1: not valid yaml"},
       {"- 1", ":1: expected a map with the key 'parts'"},
       {"part: []", ":1: there is no key 'part': expected parts"},
-      {"parts:", ":1: the key 'parts' is missing: expected a list of one part or more"},
+      {"parts:", ":1: the key 'parts' has no value: expected a list of one part or more"},
+      {"{}", ":1: the key 'parts' is missing: expected a list of one part or more"},
       {"parts: {}", ":1: parts: expected a list of one part or more"},
       {"parts: []", ":1: parts: expected a list of one part or more"},
       {"parts:\n- plate", ":2: parts[0]: expected a map with 'name', 'checkerboards' and 'targets'"},
@@ -228,6 +247,16 @@ TEST(Parts, mistakesAreNamed)
                 "[{colors: RGB, ring: 0.01, xyz: [1, 0, 0]}, {colors: RGB, ring: 0.01, xyz: [1, "
                 "0.05, 0]}]"),
        ":4: parts[0].targets[1]: this marker overlaps parts[0].targets[0]"},
+      {"parts:\n- name: plate\n  checkerboards: [" + BOARD + "]\n  targets:\n",
+       ":4: parts[0]: the key 'targets' has no value: expected a list of targets"},
+      {partWith("[{rows: 7, cols: 10,\n  square: }]"), ":4: parts[0].checkerboards[0]: the key 'square' has no value"},
+      {partWith("[" + BOARD + "]") + "---\n" + partWith("[" + BOARD + "]"),
+       ":6: a second document, behind '---', would be ignored"},
+      {partWith("[" + BOARD + "]", "[{colors: RGB, ring: 0.01, xyz: [40, -45, 0]}]"),
+       ":4: parts[0].targets[0]: this marker is 60.2"},
+      {partWith("[" + BOARD + ", {rows: 5, cols: 7, square: 0.01, pose: {xyz: [0, 29, 0]}}]"),
+       " m from parts[0].checkerboards[0], more than 200 times the shorter side of the part's largest marker, 0.140000 "
+       "m: expected positions in metres, not in millimetres"},
       {partWith("[" + BOARD + ", " + BOARD + "]"),
        ":3: parts[0].checkerboards[1]: this marker overlaps parts[0].checkerboards[0]"},
   };

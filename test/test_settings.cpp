@@ -99,7 +99,22 @@ TEST(Settings, yamlErrorsNameFileAndLineAndChangeNothing)
   EXPECT_EQ(twice + ":3: the key 'sobel_threshold' stands here twice",
             messageOf([&] { omr::loadSettings(settings, twice); }));
   EXPECT_EQ(Settings().sobel_threshold, settings.sobel_threshold);
+  const std::string empty = writeFile("sobel_threshold: 60\nfilter:\n");
+  EXPECT_EQ(empty + ":2: expected a single value of 'filter'", messageOf([&] { omr::loadSettings(settings, empty); }));
   EXPECT_NO_THROW(omr::loadSettings(settings, writeFile("")));
+}
+
+TEST(Settings, yamlBehindASecondDocumentsBeginningIsRefused)
+{
+  Settings settings;
+  const std::string two = writeFile("filter: median\n---\n\nsobel_threshold: 60\n");
+  EXPECT_EQ(two + ":4: a second document, behind '---', would be ignored: expected a file of one; remove the '---'",
+            messageOf([&] { omr::loadSettings(settings, two); }));
+  EXPECT_EQ(Settings().filter, settings.filter);
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("---\n---\nfilter: median\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: median\n---\n]\n")); }));
+  omr::loadSettings(settings, writeFile("# of a site\n---\nfilter: median\n---\n"));  // one, begun and ended by ---
+  EXPECT_EQ(Filter::median, settings.filter);
 }
 
 int main(int argc, char** argv)

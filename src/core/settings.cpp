@@ -233,7 +233,7 @@ void loadSettings(Settings& settings, const std::string& file)
 {
   Settings changed = settings;
   const auto set = [&](const std::string& name, const YamlFile& value) {
-    const std::string text = value.text("'name: value' with a single value");
+    const std::string text = value.text("a single value of '" + name + "'");
     try
     {
       setParameter(changed, name, text);

@@ -19,7 +19,17 @@ YamlFile YamlFile::read(const std::string& file, const Read& read)
 {
   try
   {
-    return {file, "", read(), 1};
+    std::vector<YAML::Node> documents = read();
+    while (documents.size() > 1 && documents.back().IsNull())  // a last --- ends a file, as in what rostopic echoes
+    {
+      documents.pop_back();
+    }
+    if (documents.size() > 1)
+    {
+      const YamlFile second(file, "", documents[1], documents[1].Mark().line + 1);
+      second.fail("a second document, behind '---', would be ignored: expected a file of one; remove the '---'");
+    }
+    return {file, "", documents.empty() ? YAML::Node() : documents.front(), 1};
   }
   catch (const YAML::BadFile&)
   {
@@ -37,12 +47,12 @@ YamlFile YamlFile::read(const std::string& file, const Read& read)
 
 YamlFile YamlFile::load(const std::string& file)
 {
-  return read(file, [&] { return YAML::LoadFile(file); });
+  return read(file, [&] { return YAML::LoadAllFromFile(file); });
 }
 
 YamlFile YamlFile::parse(const std::string& text, const std::string& name)
 {
-  return read(name, [&] { return YAML::Load(text); });
+  return read(name, [&] { return YAML::LoadAll(text); });
 }
 
 void YamlFile::fail(const std::string& message) const
@@ -67,9 +77,18 @@ YamlFile YamlFile::get(const std::string& key, const std::string& expected) cons
     fail("expected a map with the key '" + key + "'");
   }
   const YAML::Node value = node_[key];
-  if (!value.IsDefined() || value.IsNull())
+  if (!value.IsDefined())
   {
     fail("the key '" + key + "' is missing: expected " + expected);
+  }
+  if (value.IsNull())
+  {
+    forEach(expected, [&](const std::string& name, const YamlFile& entry) {
+      if (name == key)
+      {
+        entry.fail("the key '" + key + "' has no value: expected " + expected);
+      }
+    });
   }
   return {file_, (key_.empty() ? "" : key_ + ".") + key, value, value.Mark().line + 1};
 }

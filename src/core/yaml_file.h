@@ -15,7 +15,7 @@ namespace omr
 class YamlFile
 {
  public:
-  /** The root. @throws std::runtime_error if the file cannot be read. */
+  /** The root of a file, which is of one document. @throws std::runtime_error if the file cannot be read. */
   static YamlFile load(const std::string& file);
 
   /** The root of a text. @param name that errors give the file. */

@@ -27,6 +27,12 @@ constexpr std::size_t MIN_RINGS = 2;
 constexpr std::size_t MAX_RINGS = 9;
 constexpr double TOUCH = 1e-6;  // [m]; markers that share an edge do not overlap
 
+/** Shorter sides of the part's largest marker that another one may lie from the first board. Positions in millimetres
+ * below the bound of 50 pass for metres; but markers that do not overlap are half a side apart, which read as metres is
+ * 500 sides. In metres 200 sides of a board of 7 x 10 squares of 20 mm are 28 m, and a camera of 4000 px that sees both
+ * has 20 px for the board. */
+constexpr double MAX_SIDES_APART = 200;
+
 bool readChoice(const YamlFile& map, const std::string& key, const std::string& usual, const std::string& other)
 {
   if (!map.has(key))
@@ -142,6 +148,29 @@ void refuseOverlap(const Cover& a, const Cover& b)
   }
 }
 
+void refuseFar(const Part& part, const std::vector<Cover>& covers)
+{
+  double side = 0;
+  for (const PartCheckerboard& board : part.checkerboards)
+  {
+    side = std::max(side, board.rows * board.square);
+  }
+  for (const PartTarget& target : part.targets)
+  {
+    side = std::max(side, 2 * target.ring * static_cast<double>(target.colors.size()));
+  }
+  for (const Cover& cover : covers)
+  {
+    const double distance = cv::norm(cover.centers.front() - covers.front().centers.front());
+    if (distance > MAX_SIDES_APART * side)
+    {
+      cover.node.fail("this marker is " + std::to_string(distance) + " m from " + covers.front().node.key() +
+                      ", more than 200 times the shorter side of the part's largest marker, " + std::to_string(side) +
+                      " m: expected positions in metres, not in millimetres");
+    }
+  }
+}
+
 std::string readName(const YamlFile& part)
 {
   const std::string expected = "a name of letters, digits and _ - . / that does not begin with /: it names a TF frame";
@@ -193,6 +222,7 @@ Part readPart(const YamlFile& node)
     std::for_each(covers.begin(), covers.begin() + static_cast<std::ptrdiff_t>(i),
                   [&](const Cover& other) { refuseOverlap(other, covers[i]); });
   }
+  refuseFar(part, covers);
   return part;
 }
 
