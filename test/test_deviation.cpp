@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "messages_of.h"
 #include "outdoor_omr/goals.h"
@@ -125,6 +127,29 @@ TEST(PoseEstimate, relativeToAnotherPartIsHonest)
   // A metre away the plate's turn counts for more than its position.
   const PoseEstimate relative = omr::relativeTo({plate, covarianceOf(0.001, 0.002)}, {pipe, covarianceOf(0, 0)});
   EXPECT_GT(omr::positionRadius95(relative.covariance), 2 * omr::positionRadius95(covarianceOf(0.001, 0)));
+}
+
+/** The rotation of a goal with these degrees. */
+cv::Matx33d readRotation(const cv::Vec3d& degrees)
+{
+  std::ostringstream text;
+  text << std::setprecision(17) << "goals:\n- {part: plate, frame: base, pose: {xyz: [0, 0, 1], rpy_degrees: ["
+       << degrees[0] << ", " << degrees[1] << ", " << degrees[2] << "]}, tolerance_mm: 3, tolerance_degrees: 1}\n";
+  return readGoals(writeFile("turned.yaml", text.str())).at(0).pose.rotation();
+}
+
+TEST(PoseEstimate, rollPitchAndYawAreThoseOfTheFiles)
+{
+  for (const cv::Vec3d& degrees : {cv::Vec3d(25, -20, 10), cv::Vec3d(-170, 80, 100), cv::Vec3d(0, 0, 180)})
+  {
+    EXPECT_LT(cv::norm(omr::rollPitchYaw(readRotation(degrees)) / DEGREE - degrees), 1e-9) << degrees;
+  }
+  for (const cv::Vec3d& degrees : {cv::Vec3d(30, 90, 50), cv::Vec3d(30, -90, 50)})
+  {
+    const cv::Vec3d again = omr::rollPitchYaw(readRotation(degrees)) / DEGREE;
+    EXPECT_EQ(again[2], 0);
+    EXPECT_LT(cv::norm(readRotation(again), readRotation(degrees)), 1e-7) << again;
+  }
 }
 
 TEST(Goals, workedExample)

@@ -2,6 +2,7 @@
 """omr_position as its users call it. Usage: test_omr_position.py PATH_OF_OMR_POSITION"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,7 @@ import plate
 
 OMR_POSITION = None
 TARGETS = (('RWPGB', .01, -.15, 0), ('GRGPB', .01, .15, 0))
+ANGLES = (25, -20, 10)  # roll, pitch and yaw [degrees]
 PARTS = '''parts:
 - name: plate
   checkerboards: [{rows: 7, cols: 9, square: 0.02}]
@@ -26,7 +28,7 @@ PARTS = '''parts:
 class OmrPosition(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.turn, cls.shift = plate.rotation(25, -20, 10), np.array([.02, -.01, .6])
+        cls.turn, cls.shift = plate.rotation(*ANGLES), np.array([.02, -.01, .6])
         cls.whole = plate.picture(plate.paper(7, 9, .02, TARGETS), cls.turn, cls.shift)
         cls.board = plate.picture(plate.paper(7, 9, .02), cls.turn, cls.shift)
 
@@ -88,6 +90,8 @@ class OmrPosition(unittest.TestCase):
         self.assertEqual((0, ''), (result.returncode, result.stderr))
         self.assertIn('plate at (0.0', result.stdout)
         self.assertIn('1 checkerboards, 2 targets', result.stdout)
+        printed = re.search(r'rpy_degrees \((.*?), (.*?), (.*?)\)', result.stdout)
+        np.testing.assert_allclose([float(value) for value in printed.groups()], ANGLES, atol=.1)
 
     def test_file_of_json(self):
         output = os.path.join(self.folder, 'out.jsonl')

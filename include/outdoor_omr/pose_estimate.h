@@ -6,6 +6,9 @@
 
 namespace omr
 {
+/** 95 % quantile of chi square with three degrees of freedom, those of a position or of a turn. */
+constexpr double CHI_SQUARE_95 = 7.815;
+
 /** Where a part is in some frame, and how well that is known. */
 struct PoseEstimate
 {
@@ -33,6 +36,10 @@ cv::Vec6d stepBetween(const cv::Affine3d& from, const cv::Affine3d& to);
 
 /** The pose that a step leads to. */
 cv::Affine3d stepped(const cv::Affine3d& from, const cv::Vec6d& step);
+
+/** Roll, pitch and yaw [rad] of a rotation: about the fixed axes x, then y, then z, as in URDF and in the files'
+ * rpy_degrees. At a pitch of 90 degrees, where the two others are one turn, yaw is 0. */
+cv::Vec3d rollPitchYaw(const cv::Matx33d& rotation);
 
 /** Radius of the ball about the position [m] that holds it with 95 %, were it as uncertain in all directions as in the
  * worst one. */

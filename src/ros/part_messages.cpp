@@ -81,8 +81,7 @@ std::vector<cv::Point3d> outlineOf(const PartCheckerboard& board)
 
 Marker ellipsoidOf(const outdoor_omr::PartArray& parts, const outdoor_omr::Part& part)
 {
-  constexpr double CHI_SQUARE_95 = 7.815;  // of three coordinates
-  constexpr double LEAST = 1e-6;           // [m]; rviz refuses flat spheres
+  constexpr double LEAST = 1e-6;  // [m]; rviz refuses flat spheres
   cv::Matx33d covariance;
   for (int i = 0; i < 3; ++i)
   {

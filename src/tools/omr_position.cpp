@@ -1,5 +1,4 @@
 #include <chrono>
-#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <opencv2/core/utils/logger.hpp>
@@ -8,6 +7,7 @@
 #include "image_files.h"
 #include "outdoor_omr/detector.h"
 #include "outdoor_omr/locate.h"
+#include "outdoor_omr/pose_estimate.h"
 #include "parts_json.h"
 #include "program.h"
 
@@ -23,23 +23,15 @@ struct Options
   std::vector<std::string> images;
 };
 
-/** Length of the longest half axis of the ellipsoid of the position that holds it in 95 of 100 cases [m]. */
-double uncertainty(const omr::Pose& pose)
-{
-  constexpr double CHI_SQUARE = 7.815;  // of three degrees of freedom
-  cv::Vec3d values;
-  cv::eigen(pose.covariance.get_minor<3, 3>(0, 0), values);
-  return std::sqrt(CHI_SQUARE * values[0]);
-}
-
 void printPart(const omr::PartPose& part)
 {
   const cv::Vec3d position = part.pose.camera_part.translation();
-  const cv::Vec3d turn = part.pose.camera_part.rvec() * (180 / CV_PI);
+  const cv::Vec3d turn = omr::rollPitchYaw(part.pose.camera_part.rotation()) * (180 / CV_PI);
   std::cout << part.part << " at (" << std::setprecision(5) << position[0] << ", " << position[1] << ", " << position[2]
-            << ") m +- " << std::setprecision(2) << uncertainty(part.pose) * 1000 << " mm, turned by (" << turn[0]
-            << ", " << turn[1] << ", " << turn[2] << ") degrees, " << part.checkerboards.size() << " checkerboards, "
-            << part.targets.size() << " targets, reprojection error " << part.pose.rms_error << " px\n";
+            << ") m +- " << std::setprecision(2) << omr::positionRadius95(part.pose.covariance) * 1000
+            << " mm, rpy_degrees (" << turn[0] << ", " << turn[1] << ", " << turn[2] << "), "
+            << part.checkerboards.size() << " checkerboards, " << part.targets.size() << " targets, reprojection error "
+            << part.pose.rms_error << " px\n";
 }
 
 void printSummary(const std::string& image, const std::vector<omr::Sighting>& sightings)

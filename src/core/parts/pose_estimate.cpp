@@ -9,7 +9,6 @@ namespace
 {
 double radius95(const cv::Matx33d& covariance)
 {
-  constexpr double CHI_SQUARE_95 = 7.815;  // of three coordinates
   cv::Vec3d variances;
   cv::eigen(covariance, variances);
   return std::sqrt(CHI_SQUARE_95 * std::max(0., variances[0]));
@@ -71,6 +70,18 @@ cv::Affine3d stepped(const cv::Affine3d& from, const cv::Vec6d& step)
 {
   const cv::Affine3d turn(cv::Vec3d(step[3], step[4], step[5]));
   return {turn.rotation() * from.rotation(), from.translation() + cv::Vec3d(step[0], step[1], step[2])};
+}
+
+cv::Vec3d rollPitchYaw(const cv::Matx33d& rotation)
+{
+  constexpr double UPRIGHT = 1e-9;  // cosine of the pitch; below it is rounding
+  const double cosine = std::hypot(rotation(0, 0), rotation(1, 0));
+  const double pitch = std::atan2(-rotation(2, 0), cosine);
+  if (cosine < UPRIGHT)
+  {
+    return {std::atan2(-rotation(1, 2), rotation(1, 1)), pitch, 0};
+  }
+  return {std::atan2(rotation(2, 1), rotation(2, 2)), pitch, std::atan2(rotation(1, 0), rotation(0, 0))};
 }
 
 double positionRadius95(const cv::Matx66d& covariance)
