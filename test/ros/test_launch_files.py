@@ -66,6 +66,22 @@ class LaunchFiles(unittest.TestCase):
         self.assertIn(['image', 'rect'], [list(pair) for pair in detector.remap_args])
         self.assertEqual(config.params['/right/position/image_kind'].value, 'rectified')
 
+    def test_cell_passes_on_what_its_guide_tells_to_change(self):
+        cell, fusion = (os.path.join(PACKAGE, 'launch', name + '.launch') for name in ('cell', 'fusion'))
+        defaults = [{arg.get('name'): arg.get('default') for arg in arguments_of(file)} for file in (cell, fusion)]
+        changes = {'camera_position_sigma': .004, 'camera_rotation_sigma': .003, 'min_cameras': 2,
+                   'time_tolerance': .015, 'patience': .3, 'tf_timeout': .4, 'max_speed': 3, 'memory': 4,
+                   'smoothing': .5}
+        self.assertEqual(set(defaults[1]) - {'inputs', 'frame', 'parts', 'name', 'manager', 'publish_tf', 'respawn'},
+                         set(changes))
+        config = load(cell, image_transport='compressed', **{name: str(value) for name, value in changes.items()})
+        for name, value in changes.items():
+            self.assertEqual(defaults[0][name], defaults[1][name], name)
+            self.assertEqual(value, config.params['/fusion/' + name].value, name)
+        self.assertEqual(.4, config.params['/deviation/tf_timeout'].value)
+        for camera in ('left', 'right'):
+            self.assertEqual('compressed', config.params['/%s/detector/image_transport' % camera].value)
+
     def test_names_with_spaces(self):
         config = load(os.path.join(PACKAGE, 'launch', 'demo.launch'), bag='/a folder/of bags.bag', rviz='false')
         player = [node for node in config.nodes if node.name == 'player'][0]
