@@ -1,9 +1,6 @@
 #ifndef OUTDOOR_OMR_TEST_MESSAGES_OF_H
 #define OUTDOOR_OMR_TEST_MESSAGES_OF_H
 
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -11,8 +8,8 @@ namespace omr
 {
 namespace test
 {
-/** What std::invalid_argument, or another exception, says; empty: nothing was thrown. */
-template <typename Exception, typename Action>
+/** What an exception says; empty: nothing was thrown. */
+template <typename Exception = std::exception, typename Action>
 std::string messageOf(const Action& action)
 {
   try
@@ -24,14 +21,6 @@ std::string messageOf(const Action& action)
     return error.what();
   }
   return "";
-}
-
-/** Writes a file of the test's own folder. @return its path. */
-inline std::string writeFile(const std::string& name, const std::string& text)
-{
-  std::string path = testing::TempDir() + "outdoor_omr_" + name;
-  std::ofstream(path) << text;
-  return path;
 }
 
 }  // namespace test

@@ -6,6 +6,7 @@
 
 #include "messages_of.h"
 #include "outdoor_omr/camera.h"
+#include "own_folder.h"
 #include "part_view.h"
 
 using omr::Camera;

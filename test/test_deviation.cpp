@@ -9,6 +9,7 @@
 #include "messages_of.h"
 #include "outdoor_omr/goals.h"
 #include "outdoor_omr/pose_estimate.h"
+#include "own_folder.h"
 
 using omr::Deviation;
 using omr::deviationFrom;

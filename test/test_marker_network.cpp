@@ -3,16 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <opencv2/ml.hpp>
 #include <sstream>
 
 #include "network_training.h"
+#include "own_folder.h"
 
 using omr::FeedForward;
 using omr::HAAR_FEATURES;
 using omr::MarkerNetwork;
 using omr::WindowLabel;
+using omr::test::writeFile;
 
 namespace
 {
@@ -95,13 +96,6 @@ std::vector<float> windowWithBlock(int block, float light, cv::RNG& random)
   return features;
 }
 
-std::string temporaryFile(const std::string& text)
-{
-  const std::string name = testing::TempDir() + "marker_network.yaml";
-  std::ofstream(name) << text;
-  return name;
-}
-
 std::string textOf(const MarkerNetwork& network)
 {
   std::ostringstream text;
@@ -139,7 +133,7 @@ void expectRefused(const std::string& text, const std::string& words)
 {
   try
   {
-    omr::loadMarkerNetwork(temporaryFile(text));
+    omr::loadMarkerNetwork(writeFile("marker_network.yaml", text));
     FAIL() << "accepted, expected: " << words;
   }
   catch (const std::invalid_argument& error)
@@ -243,7 +237,8 @@ TEST(MarkerNetwork, readsWhatIsWritten)
   network.gate.thresholds = {-.5F, -.25F};
   network.boxes[0] = {{1, 2, 3, 4}, -1.5F, 2.5F};
   network.boxes[1] = {{5, 6, 7, 8}, .5F, 3.5F};
-  const MarkerNetwork read = omr::loadMarkerNetwork(temporaryFile("# a comment\n" + textOf(network)));
+  const MarkerNetwork read =
+      omr::loadMarkerNetwork(writeFile("marker_network.yaml", "# a comment\n" + textOf(network)));
   expectAlike(network, read);
   expectAlike(network.gate, read.gate);
   for (int kind = 0; kind < omr::MARKER_KINDS; ++kind)
@@ -256,13 +251,14 @@ TEST(MarkerNetwork, readsWhatIsWritten)
 
 TEST(MarkerNetwork, aFileWithoutAGateLetsAllWindowsPass)
 {
-  EXPECT_EQ(0, omr::loadMarkerNetwork(temporaryFile(smallNetwork())).gate.hidden);
+  EXPECT_EQ(0, omr::loadMarkerNetwork(writeFile("marker_network.yaml", smallNetwork())).gate.hidden);
 }
 
 TEST(MarkerNetwork, aFileWithoutBoxesShowsThemAll)
 {
   const std::string text = smallNetwork();
-  const MarkerNetwork network = omr::loadMarkerNetwork(temporaryFile(text.substr(0, text.find("boxes:"))));
+  const MarkerNetwork network =
+      omr::loadMarkerNetwork(writeFile("marker_network.yaml", text.substr(0, text.find("boxes:"))));
   EXPECT_EQ((std::array<float, omr::BOX_FEATURES + 1>{}), network.boxes[0].weights);
   EXPECT_EQ(0, network.boxes[0].shown);
 }

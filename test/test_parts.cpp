@@ -4,6 +4,7 @@
 
 #include "messages_of.h"
 #include "outdoor_omr/parts.h"
+#include "own_folder.h"
 
 using omr::innerCorners;
 using omr::Part;

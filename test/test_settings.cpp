@@ -1,36 +1,15 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <functional>
 #include <stdexcept>
 
+#include "messages_of.h"
 #include "outdoor_omr/settings.h"
+#include "own_folder.h"
 
 using omr::Filter;
 using omr::Settings;
-
-namespace
-{
-std::string messageOf(const std::function<void()>& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const std::exception& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-
-std::string writeFile(const std::string& content)
-{
-  const std::string name = testing::TempDir() + "settings.yaml";
-  std::ofstream(name) << content;
-  return name;
-}
-}  // namespace
+using omr::test::messageOf;
+using omr::test::writeFile;
 
 TEST(Settings, defaultsAreInBounds)
 {
@@ -77,7 +56,8 @@ TEST(Settings, saysWhatIsWrongAndWhatIsExpected)
 TEST(Settings, readsYaml)
 {
   Settings settings;
-  omr::loadSettings(settings, writeFile("filter: median\nsobel_threshold: 60\ndetect_targets: false\n"));
+  omr::loadSettings(settings,
+                    writeFile("settings.yaml", "filter: median\nsobel_threshold: 60\ndetect_targets: false\n"));
   EXPECT_EQ(Filter::median, settings.filter);
   EXPECT_EQ(60, settings.sobel_threshold);
   EXPECT_FALSE(settings.detect_targets);
@@ -86,34 +66,37 @@ TEST(Settings, readsYaml)
 TEST(Settings, yamlErrorsNameFileAndLineAndChangeNothing)
 {
   Settings settings;
-  const std::string file = writeFile("filter: median\n\nsobel_threshold: many\n");
+  const std::string file = writeFile("settings.yaml", "filter: median\n\nsobel_threshold: many\n");
   const std::string message = messageOf([&] { omr::loadSettings(settings, file); });
   EXPECT_EQ(file + ":3: 'sobel_threshold' is a whole number, not 'many'", message);
   EXPECT_EQ(Settings().filter, settings.filter);
-  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("- 1\n- 2\n")); }));
-  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median\n")); }));
-  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: [median]\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("settings.yaml", "- 1\n- 2\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("settings.yaml", "filter: [median\n")); }));
+  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("settings.yaml", "filter: [median]\n")); }));
   EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, "/nonexistent.yaml"); }));
   EXPECT_EQ("cannot read the file '/': is it a directory?", messageOf([&] { omr::loadSettings(settings, "/"); }));
-  const std::string twice = writeFile("sobel_threshold: 60\nfilter: none\nsobel_threshold: 100\n");
+  const std::string twice = writeFile("settings.yaml", "sobel_threshold: 60\nfilter: none\nsobel_threshold: 100\n");
   EXPECT_EQ(twice + ":3: the key 'sobel_threshold' stands here twice",
             messageOf([&] { omr::loadSettings(settings, twice); }));
   EXPECT_EQ(Settings().sobel_threshold, settings.sobel_threshold);
-  const std::string empty = writeFile("sobel_threshold: 60\nfilter:\n");
+  const std::string empty = writeFile("settings.yaml", "sobel_threshold: 60\nfilter:\n");
   EXPECT_EQ(empty + ":2: expected a single value of 'filter'", messageOf([&] { omr::loadSettings(settings, empty); }));
-  EXPECT_NO_THROW(omr::loadSettings(settings, writeFile("")));
+  EXPECT_NO_THROW(omr::loadSettings(settings, writeFile("settings.yaml", "")));
 }
 
 TEST(Settings, yamlBehindASecondDocumentsBeginningIsRefused)
 {
   Settings settings;
-  const std::string two = writeFile("filter: median\n---\n\nsobel_threshold: 60\n");
+  const std::string two = writeFile("settings.yaml", "filter: median\n---\n\nsobel_threshold: 60\n");
   EXPECT_EQ(two + ":4: a second document, behind '---', would be ignored: expected a file of one; remove the '---'",
             messageOf([&] { omr::loadSettings(settings, two); }));
   EXPECT_EQ(Settings().filter, settings.filter);
-  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("---\n---\nfilter: median\n")); }));
-  EXPECT_NE("", messageOf([&] { omr::loadSettings(settings, writeFile("filter: median\n---\n]\n")); }));
-  omr::loadSettings(settings, writeFile("# of a site\n---\nfilter: median\n---\n"));  // one, begun and ended by ---
+  EXPECT_NE("",
+            messageOf([&] { omr::loadSettings(settings, writeFile("settings.yaml", "---\n---\nfilter: median\n")); }));
+  EXPECT_NE("",
+            messageOf([&] { omr::loadSettings(settings, writeFile("settings.yaml", "filter: median\n---\n]\n")); }));
+  omr::loadSettings(
+      settings, writeFile("settings.yaml", "# of a site\n---\nfilter: median\n---\n"));  // one, begun and ended by ---
   EXPECT_EQ(Filter::median, settings.filter);
 }
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <fstream>
 #include <string>
+
+#include "own_folder.h"
 
 namespace ros_test
 {
@@ -21,7 +21,7 @@ class ReloadedFile
       : node_(node),
         parameter_(node + "/" + parameter),
         first_(ros::NodeHandle().param<std::string>(parameter_, "")),
-        path_(testing::TempDir() + parameter + std::to_string(getpid()) + ".yaml")
+        path_(omr::test::ownPath(parameter + ".yaml"))
   {
     ros::NodeHandle().setParam(parameter_, path_);
   }
@@ -44,7 +44,7 @@ class ReloadedFile
   /** What the nodelet answers to a file with this text. */
   std_srvs::TriggerResponse reload(const std::string& text) const
   {
-    std::ofstream(path_) << text;
+    omr::test::writeTo(path_, text);
     return call();
   }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "nodelet_manager.h"
+#include "own_folder.h"
 #include "ros_test.h"
 
 using diagnostic_msgs::DiagnosticArray;
@@ -64,7 +65,7 @@ std::set<ros::Time> writeBag(const std::string& file)
 
 TEST(BrokenImages, areCountedAndTheGoodOnesProcessed)
 {
-  const std::string file = testing::TempDir() + "broken_images.bag";
+  const std::string file = omr::test::ownPath("broken_images.bag");
   const std::set<ros::Time> good = writeBag(file);
   NodeletManager manager;
   ASSERT_TRUE(NodeletManager::load());

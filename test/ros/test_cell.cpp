@@ -12,6 +12,7 @@
 
 #include "board_view.h"
 #include "child_process.h"
+#include "own_folder.h"
 #include "pose_messages.h"
 #include "reload.h"
 #include "ros_test.h"
@@ -86,7 +87,7 @@ std::vector<boost::shared_ptr<const Message>> ofPhase(const Listener<Message>& l
 
 TEST(Cell, fromABagOfTwoCamerasToTheDeviationOfAPlate)
 {
-  const std::string file = testing::TempDir() + "outdoor_omr_cell.bag";
+  const std::string file = omr::test::ownPath("cell.bag");
   {
     rosbag::Bag bag(file, rosbag::bagmode::Write);
     writePhase(bag, AGREEING, {0, 0, 0});

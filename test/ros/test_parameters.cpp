@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "outdoor_omr/settings.h"
+#include "own_folder.h"
 #include "parameters.h"
 #include "sliders.h"
 
@@ -128,8 +129,8 @@ TEST(Parameters, refusesAWordThatIsNoChoice)
 
 TEST(Parameters, yamlFileHoldsTheDefaults)
 {
-  const std::string made = testing::TempDir() + "detector.yaml";
-  std::ofstream(made) << defaultYaml();
+  const std::string made = OUTDOOR_OMR_BUILD "/detector.yaml";  // stays, to be copied
+  omr::test::writeTo(made, defaultYaml());
   EXPECT_EQ(defaultYaml(), contentOf(OUTDOOR_OMR_CONFIG "/detector.yaml"))
       << "settings.def has changed: copy " << made << " to config/detector.yaml";
   Settings settings;
