@@ -18,6 +18,10 @@ fi
 # Without a network the machine's own name may not resolve, and no node finds another.
 export ROS_HOSTNAME="${ROS_HOSTNAME:-127.0.0.1}"
 
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
 # Puts this package's programs on PATH, its messages and launch files within reach of roslaunch and rosbag. (rosrun
 # finds nothing in a build folder that lies inside the package; in a catkin workspace it does.)
 use_build() {
