@@ -2,6 +2,7 @@
 """The python scripts as the shell scripts call them. Usage: test_scripts.py PATH_OF_OMR_SHEET"""
 import json
 import os
+import shutil
 import stat
 import subprocess
 import sys
@@ -65,6 +66,18 @@ class Scripts(unittest.TestCase):
         with open(self.path(name), 'w') as file:
             file.write(text)
         os.chmod(self.path(name), stat.S_IRWXU)
+
+    def test_a_path_that_catkin_cannot_test_in_is_refused(self):
+        for name, refused in (('my robot', True), ("d'or", True), ('a;b', True), ('cell_1.0+a-b', False)):
+            scripts = self.path(name, 'scripts')
+            os.makedirs(scripts)
+            for script in ('test', 'environment.sh'):
+                shutil.copy(os.path.join(SCRIPTS, script), scripts)
+            self.write(os.path.join(name, 'scripts', 'setup'), '#!/bin/sh\necho set up >&2; exit 3\n')
+            result = subprocess.run([os.path.join(scripts, 'test')], stderr=subprocess.PIPE, universal_newlines=True)
+            self.assertEqual(1 if refused else 3, result.returncode, result.stderr)
+            self.assertIn("move or clone '%s'" % self.path(name) if refused else 'set up', result.stderr)
+            self.assertEqual(1, result.stderr.count('\n'), result.stderr)
 
     def test_scenes_show_the_sheet_from_several_sides(self):
         sheet = self.path('sheet.png')
