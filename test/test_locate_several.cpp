@@ -131,6 +131,12 @@ TEST_F(Locate, copyWithFewerMarkersGivesWay)
   expectCertain(locate(view, {part}), "plate", pose_);
 }
 
+TEST(Misfit, isToldAboveWhatMarkersAreFoundWith)
+{
+  EXPECT_EQ(omr::misfitOf("plate", 0.18), "");  // boards on paper before real cameras
+  EXPECT_EQ(omr::misfitOf("plate", 0.36).find("plate: reprojection error 0.36 px, more than 0.30: "), 0U);  // bent
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

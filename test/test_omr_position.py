@@ -93,6 +93,14 @@ class OmrPosition(unittest.TestCase):
         printed = re.search(r'rpy_degrees \((.*?), (.*?), (.*?)\)', result.stdout)
         np.testing.assert_allclose([float(value) for value in printed.groups()], ANGLES, atol=.1)
 
+    def test_a_part_that_is_described_wrongly_is_told(self):
+        image = self.write('whole.png', self.whole)
+        bent = self.write('bent.yaml', PARTS.replace('square: 0.02', 'square: 0.02, surface: {cylinder: 0.5}'))
+        result = self.run_tool('--json', '-', image, parts=bent)
+        self.assert_fails('omr_position: warning: %s: plate: reprojection error ' % image, result, 0)
+        self.assertIn('px, more than 0.30: likely its description in the parts file', result.stderr)
+        self.assertGreater(json.loads(result.stdout)['parts'][0]['reprojection_error'], .3)
+
     def test_file_of_json(self):
         output = os.path.join(self.folder, 'out.jsonl')
         images = [self.write('whole.png', self.whole), self.write('empty.png', np.full((720, 960, 3), 120, np.uint8))]

@@ -56,6 +56,12 @@ std::vector<Sighting> locateParts(const std::vector<Checkerboard>& checkerboards
 /** The same from all markers, sections of boards among them. */
 std::vector<Sighting> locateParts(const Markers& markers, const std::vector<Part>& parts, const Camera& camera);
 
+/**
+ * What is likely wrong where a part's markers do not lie where its pose expects them, in words that name the part;
+ * empty where they do. @param reprojection_error Pose::rms_error [px].
+ */
+std::string misfitOf(const std::string& part, double reprojection_error);
+
 }  // namespace omr
 
 #endif

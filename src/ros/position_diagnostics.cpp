@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "outdoor_omr/locate.h"
+
 namespace omr
 {
 namespace
@@ -73,9 +75,12 @@ void PositionDiagnostics::located(const outdoor_omr::PartArray& parts)
   parts_ = static_cast<int>(parts.parts.size());
   ambiguous_ = static_cast<int>(parts.ambiguous.size());
   ambiguous_names_ = namesOf(parts.ambiguous);
+  misfits_.clear();
   for (const outdoor_omr::Part& part : parts.parts)
   {
     seen_[part.name] = last_match_;
+    const std::string misfit = misfitOf(part.name, part.reprojection_error);
+    misfits_ += (misfits_.empty() || misfit.empty() ? "" : "; ") + misfit;
   }
 }
 
@@ -158,16 +163,17 @@ void PositionDiagnostics::summarize(diagnostic_updater::DiagnosticStatusWrapper&
   {
     status.summaryf(DiagnosticStatus::ERROR, "%s", refusal_.c_str());
   }
-  else if (ambiguous_ > 0)
-  {
-    status.summaryf(DiagnosticStatus::WARN,
-                    "Parts: %d. Ambiguous: %s. Another marker of the part in view tells which, as a target beside the "
-                    "board.",
-                    parts_, ambiguous_names_.c_str());
-  }
   else
   {
-    status.summaryf(DiagnosticStatus::OK, "Parts: %d.", parts_);
+    const bool fine = ambiguous_ == 0 && misfits_.empty();
+    std::string text = "Parts: " + std::to_string(parts_) + ".";
+    if (ambiguous_ > 0)
+    {
+      text += " Ambiguous: " + ambiguous_names_ +
+              ". Another marker of the part in view tells which, as a target beside the board.";
+    }
+    text += misfits_.empty() ? "" : " " + misfits_ + ".";
+    status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN, text);
   }
 }
 

@@ -69,6 +69,7 @@ class PositionDiagnostics
   int parts_ = 0;
   int ambiguous_ = 0;
   std::string ambiguous_names_;
+  std::string misfits_;  // in the last image
 
   const std::array<std::string, 3> topics_;
 

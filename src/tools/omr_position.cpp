@@ -51,6 +51,20 @@ void printSummary(const std::string& image, const std::vector<omr::Sighting>& si
   }
 }
 
+/** Says on standard error which parts do not lie as they are described. */
+void warnOfMisfits(const std::string& image, const std::vector<omr::Sighting>& sightings)
+{
+  for (const omr::Sighting& sighting : sightings)
+  {
+    const omr::PartPose& part = sighting.candidates.front();
+    const std::string misfit = sighting.certain() ? omr::misfitOf(part.part, part.pose.rms_error) : "";
+    if (!misfit.empty())
+    {
+      std::cerr << "omr_position: warning: " << image << ": " << misfit << std::endl;
+    }
+  }
+}
+
 std::string words(const cv::Size& size)
 {
   return std::to_string(size.width) + " x " + std::to_string(size.height);
@@ -85,6 +99,7 @@ omr::ExitCode locateAll(const Options& options)
       const omr::Markers markers = detector.detect(image, settings);
       const std::vector<omr::Sighting> sightings = omr::locateParts(markers, parts, camera);
       const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+      warnOfMisfits(name, sightings);
       if (options.json.empty())
       {
         printSummary(name, sightings);

@@ -150,6 +150,23 @@ TEST_F(Position, thatIsAmbiguousIsNamedWithTheWayOut)
   EXPECT_NE(std::string::npos, diagnosticsAfter(view(7, 9, POSE), cameraInfo(), text).find(text));
 }
 
+TEST_F(Position, ofAPartThatIsDescribedWronglyIsWarnedOf)
+{
+  const cv::Mat picture = view(7, 10, POSE);
+  const ros_test::ReloadedFile file("/position", "parts");
+  const std::string board = "parts:\n- name: lid\n  checkerboards:\n  - {rows: 7, cols: 10, square: 0.03";
+  EXPECT_TRUE(file.reload(board + ", surface: {cylinder: 1}}\n").success);
+  const std::string text = "Parts: 1. lid: reprojection error ";
+  EXPECT_EQ(0U, diagnosticsAfter(picture, cameraInfo(), text).find(text));
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, newestStatus(diagnostics_, STATUS).level);
+  EXPECT_TRUE(file.reload(board + "}\n").success);
+  EXPECT_TRUE(waitFor([&] {
+    show(picture, cameraInfo());
+    return newestStatus(diagnostics_, STATUS).message == "Parts: 1.";
+  }));
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, newestStatus(diagnostics_, STATUS).level);
+}
+
 TEST_F(Position, isNotGivenWithoutACalibration)
 {
   const cv::Mat picture = view(7, 10, POSE);
