@@ -12,7 +12,7 @@ namespace omr
 {
 namespace
 {
-constexpr double MAX_SINE = .13;               // root mean square of an arc's, that lies on a family
+constexpr double MAX_ARC_SINE = .13;           // root mean square of an arc's, that lies on a family
 constexpr double MAX_MIDDLE_SINE = .25;        // in the middle of such an arc
 constexpr double MAX_DISTANCE = .5;            // likewise [px]
 constexpr double MAX_RELATIVE_DISTANCE = .02;  // more, relative to the radius
@@ -73,7 +73,7 @@ OMR_VECTORIZED void findAlong(const Middles& middles, const ShapeVector& shape, 
 
 bool liesOn(const ArcSums& sums, const ShapeVector& shape, const RingFamily& family)
 {
-  if (sums.squaredSine(shape) > MAX_SINE * MAX_SINE)
+  if (sums.squaredSine(shape) > MAX_ARC_SINE * MAX_ARC_SINE)
   {
     return false;
   }

@@ -15,7 +15,6 @@ namespace
 constexpr int MIN_AREA = 20;  // of a piece [px]
 constexpr int MIN_SIDE = 8;   // of its box [px]
 constexpr int MAX_SIDE = 80;
-constexpr int MAX_TILES = 8;     // along a side of the piece, whose edgels vote
 constexpr int MAX_EDGELS = 128;  // that vote
 constexpr int MIN_EDGELS = 20;
 constexpr int MIN_DRAWS = 20;
@@ -167,9 +166,8 @@ bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& vot
   const double side = std::max(piece.box.width, piece.box.height);
   const double margin = std::max(4., .25 * side);
   std::vector<Edgel> edgels;
-  map.visit(
-      piece.box.x - margin, piece.box.y - margin, piece.box.x + piece.box.width - 1 + margin,
-      piece.box.y + piece.box.height - 1 + margin, [&](const Edgel& edgel) { edgels.push_back(edgel); }, MAX_TILES);
+  map.visit(piece.box.x - margin, piece.box.y - margin, piece.box.x + piece.box.width - 1 + margin,
+            piece.box.y + piece.box.height - 1 + margin, [&](const Edgel& edgel) { edgels.push_back(edgel); });
   if (edgels.size() < MIN_EDGELS || isStraight(edgels))
   {
     return false;

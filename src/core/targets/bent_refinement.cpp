@@ -25,14 +25,7 @@ bool findBend(const std::vector<BoundaryPoint>& points, RingFamily& family, std:
     return false;
   }
   std::vector<BoundaryPoint> few = points;
-  if (points.size() > FIRST_POINTS)
-  {
-    for (std::size_t i = 0; i < FIRST_POINTS; ++i)
-    {
-      few[i] = points[i * points.size() / FIRST_POINTS];
-    }
-    few.resize(FIRST_POINTS);
-  }
+  thin(few, FIRST_POINTS);
   // The normal appears along the short axis of small circles, foreshortened as much as that axis is not.
   const double mean = (family.a + family.d) / 2;
   const double difference = std::hypot((family.a - family.d) / 2, family.b);

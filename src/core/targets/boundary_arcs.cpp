@@ -6,6 +6,7 @@
 
 #include "lane_equations.h"
 #include "median.h"
+#include "ring_samples.h"
 #include "vectorized.h"
 
 namespace omr
@@ -149,7 +150,7 @@ cv::Vec3f channelOf(const cv::Mat& bgr, const RingFamily& family, double inner, 
 {
   constexpr int LOOKS = 32;
   constexpr float MORE_GREY = 3;
-  const cv::Vec3f grey(.114F, .587F, .299F);
+  const cv::Vec3f grey(GREY_WEIGHTS[0], GREY_WEIGHTS[1], GREY_WEIGHTS[2]);
   const cv::Rect image(cv::Point(), bgr.size());
   std::array<std::vector<float>, 3> steps;
   for (int i = 0; i < LOOKS; ++i)

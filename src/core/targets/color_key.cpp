@@ -13,7 +13,6 @@ namespace
 {
 constexpr double OTHER_WAY_COST = 3;     // of another way of measuring than the first
 constexpr double SAME_AS_NEIGHBOR = 8;   // cost of a boundary between equal letters
-constexpr double TINT_DEVIATION = .35;   // of the logarithm of white's red and blue over green
 constexpr double EXCESS_DEVIATION = .3;  // of the logarithm: gloss and uneven light
 constexpr double FREE_WHITE_COST = 3;    // of a white that is seen nowhere
 // From the level of the brightest ring up to 4 times as bright: blue and green alone show a third of the white.
@@ -30,11 +29,6 @@ constexpr double THICK_HAZE = .4;
 constexpr double UNEXPLAINED_IN_HAZE = 2.5;  // cost of the whole a ring, through a thick haze
 // Cost of a ring that no letter explains. Grey, which a black disk shows below gloss, costs 5.9 as a green.
 constexpr double UNEXPLAINED = 5;
-
-double squared(double value)
-{
-  return value * value;
-}
 
 /** One way to see all rings. */
 struct Explanation
@@ -85,12 +79,6 @@ struct White
   LinearColor color;
   double cost = 0;
 };
-
-double tintCost(const LinearColor& color)
-{
-  return squared(std::log(color[0] / color[1]) / TINT_DEVIATION) +
-         squared(std::log(color[2] / color[1]) / TINT_DEVIATION);
-}
 
 /** Nothing is much brighter than white. */
 double excessCost(const std::vector<LinearColor>& rings, const std::vector<bool>& seen, const LinearColor& white)

@@ -11,6 +11,8 @@ namespace omr
 /** Red, green and blue in linear light, 1 = the brightest the camera can tell. */
 using LinearColor = cv::Vec3d;
 
+constexpr double DARKEST_LIGHT = .003;  ///< linear: two grey levels in the dark, below it is noise
+
 /** Inverse of the sRGB transfer function. @param grey_level [0, 255] */
 double linearLight(double grey_level);
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "gradient_tile.h"
-#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -24,7 +23,6 @@ constexpr float NOISE_FACTOR = 3;
 constexpr float LOWEST_THRESHOLD = 12;
 constexpr float HIGHEST_THRESHOLD = 28;
 constexpr std::size_t TILE_LOOKS = 100;  // that computing a tile takes the time of
-constexpr int NOISE_SAMPLES = 6;         // tiles along each side of the picture
 constexpr int LANES = 8;
 
 /** Pixels side by side, and the magnitudes one step along their gradient and against it. */
@@ -191,31 +189,6 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
                lane);
   }
 }
-
-/** Median magnitude of a few tiles spread over the picture. */
-float medianMagnitude(const cv::Mat& bgr, const cv::Size& grid)
-{
-  std::vector<float> sample;
-  GradientTile tile;
-  const int rows = std::min(grid.height, NOISE_SAMPLES);
-  const int cols = std::min(grid.width, NOISE_SAMPLES);
-  for (int row = 0; row < rows; ++row)
-  {
-    for (int col = 0; col < cols; ++col)
-    {
-      computeGradients(bgr, (2 * col + 1) * grid.width / (2 * cols) * TILE,
-                       (2 * row + 1) * grid.height / (2 * rows) * TILE, tile);
-      for (int i = 1; i < SIDE; i += 3)
-      {
-        for (int j = 1; j < SIDE; j += 3)
-        {
-          sample.push_back(tile.magnitude[i][j]);
-        }
-      }
-    }
-  }
-  return median(std::move(sample));
-}
 }  // namespace
 
 EdgelMap::Tiles::Tiles(cv::Mat image, const cv::Size& size)
@@ -223,13 +196,11 @@ EdgelMap::Tiles::Tiles(cv::Mat image, const cv::Size& size)
 {
 }
 
-EdgelMap::EdgelMap(const cv::Mat& bgr, std::size_t max_looks)
+EdgelMap::EdgelMap(const cv::Mat& bgr)
     : shared_(std::make_shared<Tiles>(bgr, cv::Size((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE))),
-      visited_(shared_->tiles.size(), 0),
-      max_looks_(max_looks)
+      visited_(shared_->tiles.size(), 0)
 {
-  const float noise = medianMagnitude(bgr, shared_->grid);
-  threshold_ = std::clamp(NOISE_FACTOR * noise, LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
+  threshold_ = std::clamp(NOISE_FACTOR * medianMagnitude(bgr), LOWEST_THRESHOLD, HIGHEST_THRESHOLD);
 }
 
 void EdgelMap::join(const EdgelMap& fork)

@@ -73,11 +73,8 @@ class EdgelTile
 class EdgelMap
 {
  public:
-  /**
-   * @param bgr       H x W, CV_8UC3, not empty; shared, not copied.
-   * @param max_looks after so many the work is to end; isSpent() tells.
-   */
-  explicit EdgelMap(const cv::Mat& bgr, std::size_t max_looks = std::numeric_limits<std::size_t>::max());
+  /** @param bgr H x W, CV_8UC3, not empty; shared, not copied. */
+  explicit EdgelMap(const cv::Mat& bgr);
 
   /** Weakest magnitude of an edgel [grey levels]: follows the noise of the picture. */
   float threshold() const
@@ -114,19 +111,15 @@ class EdgelMap
     return looks_ > max_looks_;
   }
 
+  /** After so many the work is to end; isSpent() tells. */
   void setMaxLooks(std::size_t max_looks)
   {
     max_looks_ = max_looks;
   }
 
-  /**
-   * Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom.
-   *
-   * @param max_tiles along a side: of larger areas, tiles spread evenly are visited.
-   */
+  /** Calls visitor(const Edgel&) for each edgel with left <= x <= right and top <= y <= bottom. */
   template <typename Visitor>
-  void visit(double left, double top, double right, double bottom, Visitor&& visitor,
-             int max_tiles = std::numeric_limits<int>::max())
+  void visit(double left, double top, double right, double bottom, Visitor&& visitor)
   {
     const auto visit_tile = [&](const EdgelTile& tile) {
       for (std::size_t i = 0; i < tile.size(); ++i)
@@ -138,7 +131,7 @@ class EdgelMap
         }
       }
     };
-    visitTiles(left, top, right, bottom, visit_tile, max_tiles);
+    visitTiles(left, top, right, bottom, visit_tile);
   }
 
   /** Computes all tiles, in OpenCV's threads; that counts no looks. */
@@ -146,20 +139,10 @@ class EdgelMap
 
   /** Calls visitor(const EdgelTile&) for the tiles that hold all edgels of an area, and others beside it. */
   template <typename Visitor>
-  void visitTiles(double left, double top, double right, double bottom, Visitor&& visitor,
-                  int max_tiles = std::numeric_limits<int>::max())
+  void visitTiles(double left, double top, double right, double bottom, Visitor&& visitor)
   {
-    const cv::Rect tiles = tilesOf(left, top, right, bottom);
-    const int row_step = (tiles.height - 1) / max_tiles + 1;
-    const int col_step = (tiles.width - 1) / max_tiles + 1;
-    for (int row = tiles.y; row < tiles.y + tiles.height; row += row_step)
-    {
-      // Shifted from row to row, so that upright edges are met as well.
-      for (int col = tiles.x + (row / row_step) % col_step; col < tiles.x + tiles.width; col += col_step)
-      {
-        visitTile(col, row, visitor);
-      }
-    }
+    const auto all = [](const cv::Rect2d&) { return true; };
+    visitWanted(left, top, right, bottom, all, visitor);
   }
 
   /** The same, without the tiles that are not wanted. @param isWanted(const cv::Rect2d&) where a tile's edgels lie */
@@ -215,7 +198,7 @@ class EdgelMap
   float threshold_ = 0;
   std::size_t looks_ = 0;
   std::size_t looks_before_ = 0;  // the fork
-  std::size_t max_looks_ = 0;
+  std::size_t max_looks_ = std::numeric_limits<std::size_t>::max();
 };
 
 }  // namespace omr

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
+#include "median.h"
 #include "vectorized.h"
 
 namespace omr
@@ -14,6 +17,7 @@ constexpr int HALO = 3;  // two pixels for the 5x5 kernels, one for the comparis
 constexpr int SIDE = GradientTile::SIDE;
 constexpr int PIXELS = GradientTile::PIXELS + 2 * HALO;
 constexpr int CHANNELS = 3;
+constexpr int NOISE_SAMPLES = 6;  // tiles along each side of the picture
 
 /** One channel of the tile's pixels, replicated beyond the borders. */
 using Plane = std::array<std::array<std::int16_t, PIXELS>, PIXELS>;
@@ -135,6 +139,32 @@ void computeGradients(const cv::Mat& bgr, int left, int top, GradientTile& tile)
     differentiate(planes[c], channels[c]);
   }
   selectStrongest(channels, tile);
+}
+
+float medianMagnitude(const cv::Mat& bgr)
+{
+  constexpr int TILE = GradientTile::PIXELS;
+  const cv::Size grid((bgr.cols + TILE - 1) / TILE, (bgr.rows + TILE - 1) / TILE);
+  std::vector<float> sample;
+  GradientTile tile;
+  const int rows = std::min(grid.height, NOISE_SAMPLES);
+  const int cols = std::min(grid.width, NOISE_SAMPLES);
+  for (int row = 0; row < rows; ++row)
+  {
+    for (int col = 0; col < cols; ++col)
+    {
+      computeGradients(bgr, (2 * col + 1) * grid.width / (2 * cols) * TILE,
+                       (2 * row + 1) * grid.height / (2 * rows) * TILE, tile);
+      for (int i = 1; i < SIDE; i += 3)
+      {
+        for (int j = 1; j < SIDE; j += 3)
+        {
+          sample.push_back(tile.magnitude[i][j]);
+        }
+      }
+    }
+  }
+  return median(std::move(sample));
 }
 
 }  // namespace omr

@@ -25,6 +25,9 @@ struct GradientTile
  */
 void computeGradients(const cv::Mat& bgr, int left, int top, GradientTile& tile);
 
+/** Median magnitude of a few tiles spread over the picture, not empty: its noise [grey levels]. */
+float medianMagnitude(const cv::Mat& bgr);
+
 }  // namespace omr
 
 #endif

@@ -18,8 +18,6 @@ namespace
 constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
 constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
 constexpr std::array<double, 4> HAZE = {.15, .3, .45, .6};  // share of white in each ink
-constexpr double TINT_DEVIATION = .35;                      // of the logarithms of white's red and blue over green
-constexpr double DARKEST = .003;                            // linear light
 
 using Inks = std::array<cv::Vec3d, LETTERS>;
 
@@ -30,13 +28,10 @@ double greyLevelOf(double light)
   return 255 * (light <= .0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - .055);
 }
 
-/** Of taking a colour for white. */
-double tintCost(const cv::Vec3d& bgr)
+/** Red, green and blue in linear light, not below the noise. */
+LinearColor lightOf(const cv::Vec3d& bgr)
 {
-  const double green = std::log(linearLight(bgr[1]) + DARKEST);
-  const double blue = (std::log(linearLight(bgr[0]) + DARKEST) - green) / TINT_DEVIATION;
-  const double red = (std::log(linearLight(bgr[2]) + DARKEST) - green) / TINT_DEVIATION;
-  return blue * blue + red * red;
+  return LinearColor(linearLight(bgr[2]), linearLight(bgr[1]), linearLight(bgr[0])) + LinearColor::all(DARKEST_LIGHT);
 }
 
 Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
@@ -273,7 +268,7 @@ InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& r
   const Inks inks = inksUnder(fromHue(around), haze);
   Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
   sequence.descend();
-  return {sequence.rest() + tintCost(fromHue(around)), sequence.letters(), haze, {}};
+  return {sequence.rest() + tintCost(lightOf(fromHue(around))), sequence.letters(), haze, {}};
 }
 
 std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& result) const

@@ -18,16 +18,12 @@ constexpr double DEVIATION = .4;        // of the logarithm of the reflectance, 
 constexpr double WHITE_DEVIATION = .2;  // the same of white, which the light tints as it tints the white of the place
 constexpr double BRIGHTNESS_DEVIATION = .6;  // of that mean
 constexpr double LARGEST_COST = 16;
+constexpr double TINT_DEVIATION = .35;  // of the logarithm of white's red and blue over green
 // Gloss lies on one ring more than on another: a neutral light that takes a hue's depth, and leaves the hue
 // ("occlusion": 122 -> 130 of 141 letters).
 const std::array<double, 4> VEILS = {0, .1, .2, .3};
 constexpr double VEIL_COST = 10;  // of one as bright as the white
 constexpr double UNVEILED = 3;    // cost below which a ring needs none
-
-double squared(double value)
-{
-  return value * value;
-}
 
 /** Logarithms of a reflectance, which tells little where it is low. */
 LinearColor logarithms(const LinearColor& reflectance)
@@ -57,6 +53,12 @@ double letterCost(const LinearColor& seen, int letter)
   return std::min(cost, LARGEST_COST);
 }
 }  // namespace
+
+double tintCost(const LinearColor& color)
+{
+  return squared(std::log(color[0] / color[1]) / TINT_DEVIATION) +
+         squared(std::log(color[2] / color[1]) / TINT_DEVIATION);
+}
 
 Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze, double thickest_veil)
 {

@@ -16,6 +16,14 @@ extern const std::array<LinearColor, LETTERS> REFLECTANCE;
 /** Of each letter for one ring. */
 using Costs = std::array<double, LETTERS>;
 
+inline double squared(double value)
+{
+  return value * value;
+}
+
+/** Of taking a colour for white: the light has a tint. @param color positive */
+double tintCost(const LinearColor& color);
+
 /**
  * Squared deviations of a ring's colour from each letter's.
  *

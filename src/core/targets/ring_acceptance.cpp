@@ -26,11 +26,11 @@ constexpr double BAR_AGREEMENT = .85;  // most
 constexpr double OPEN_VISIBLE = .42;  // of the directions
 constexpr double OPEN_RMS = .08;      // [px]
 constexpr double OPEN_RELATIVE_RMS = .0015;
-constexpr double BENT_EVIDENCE = .8;    // of what a bend may make fit so: it was .84 and .92
-constexpr double OPEN_ONE_SIDED = .56;  // most: half a turn has .64
-constexpr double OPEN_GAP = .38;        // most, of a turn
-constexpr double MORE_TURNS = 2;        // of more than MANY_RINGS
-constexpr double MANY_TURNS = 1.75;     // of MANY_RINGS, which fit closer
+constexpr double OPEN_BENT_EVIDENCE = .8;  // of what a bend may make fit so: it was .84 and .92
+constexpr double OPEN_ONE_SIDED = .56;     // most: half a turn has .64
+constexpr double OPEN_GAP = .38;           // most, of a turn
+constexpr double MORE_TURNS = 2;           // of more than MANY_RINGS
+constexpr double MANY_TURNS = 1.75;        // of MANY_RINGS, which fit closer
 constexpr double CLOSER = .75;
 constexpr double MANY_EVIDENCE = .85;
 constexpr double FEW_TURNS = 1.7;  // of three rings
@@ -179,7 +179,7 @@ bool maySuffice(const RingCandidate& candidate)
 {
   const Rings& rings = candidate.rings;
   return share(rings.open) >= OPEN_VISIBLE && widestGap(rings.open) <= OPEN_GAP &&
-         (rings.rms < largestOpenRms(rings) || candidate.evidence > BENT_EVIDENCE);
+         (rings.rms < largestOpenRms(rings) || candidate.evidence > OPEN_BENT_EVIDENCE);
 }
 
 bool showsEnough(const RingCandidate& candidate)

@@ -22,7 +22,7 @@ constexpr double MIN_CONTRAST = .12;        // of the logarithms, length over th
 constexpr double MIN_EDGE_CONTRAST = .025;  // where edgels show that there is a boundary
 constexpr double EDGE_SUPPORT = .75;
 constexpr double EDGE_COHERENCE = .9;
-constexpr double SMALL_RADIUS = 3;  // [px]; near the centre few pixels decide, so that their noise is coherent
+constexpr double NOISY_RADIUS = 3;  // [px]; near the centre few pixels decide, so that their noise is coherent
 constexpr double CLEAR_CONTRAST = .3;
 constexpr double MIN_AGREEMENT = .5;     // at a clear contrast: a target may be half hidden
 constexpr double FAINT_AGREEMENT = .3;   // more at the least contrast
@@ -179,7 +179,7 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k, const Ang
   const double faintness = std::clamp((CLEAR_CONTRAST - boundary.contrast) / (CLEAR_CONTRAST - MIN_CONTRAST), 0., 1.);
   const double supported = share(boundary.supported) / share(open);
   const bool is_edge = supported > EDGE_SUPPORT && boundary.coherence > EDGE_COHERENCE;
-  const double least_contrast = (is_edge ? MIN_EDGE_CONTRAST : MIN_CONTRAST) * (1 + SMALL_RADIUS / boundary.radius);
+  const double least_contrast = (is_edge ? MIN_EDGE_CONTRAST : MIN_CONTRAST) * (1 + NOISY_RADIUS / boundary.radius);
   double result =
       std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
   if (isBesideStronger(boundaries, k))

@@ -26,12 +26,12 @@ constexpr double BENT_RADIUS = 12;  // [px]
 constexpr double BENT_EVIDENCE = .65;
 constexpr double BENT_RMS = .1;  // of what lies on a plane, most [px]
 constexpr double BENT_RELATIVE_RMS = .002;
-constexpr double BENT_GAIN = .75;     // of the root mean square, at least
-constexpr double SMALL_GAIN = .6;     // of rings of less than SMALL_RADIUS, whose few edgels a bend fits easily
-constexpr double SMALL_RADIUS = 25;   // [px]
-constexpr double SMALL_VISIBLE = .9;  // of such rings, at least: else a bend puts the centre anywhere
-constexpr double NEEDED_GAIN = .8;    // where the rings are a target's only so
-constexpr double BENT_LOSS = .02;     // of evidence x visible share, at most
+constexpr double BENT_GAIN = .75;  // of the root mean square, at least
+constexpr double SMALL_GAIN = .6;  // of rings of less than SMALL_BENT_RADIUS, whose few edgels a bend fits easily
+constexpr double SMALL_BENT_RADIUS = 25;  // [px]
+constexpr double SMALL_VISIBLE = .9;      // of such rings, at least: else a bend puts the centre anywhere
+constexpr double NEEDED_GAIN = .8;        // where the rings are a target's only so
+constexpr double BENT_LOSS = .02;         // of evidence x visible share, at most
 
 // Of rings that something hides in the other directions.
 constexpr int OPEN_RINGS = 3;
@@ -126,7 +126,7 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
 bool looksBent(const RingCandidate& candidate)
 {
   const double radius = candidate.rings.radii.back();
-  return (radius > SMALL_RADIUS || candidate.visible > SMALL_VISIBLE) &&
+  return (radius > SMALL_BENT_RADIUS || candidate.visible > SMALL_VISIBLE) &&
          candidate.boundaries.size() >= std::size_t{BENT_RINGS} && radius > BENT_RADIUS &&
          candidate.evidence > BENT_EVIDENCE && candidate.rings.rms > BENT_RMS + BENT_RELATIVE_RMS * radius;
 }
@@ -136,9 +136,9 @@ void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::v
 {
   RingCandidate bent = candidate;
   bent.ring_count = candidate.ring_count = static_cast<int>(candidate.boundaries.size());
-  const double gain = candidate.rings.radii.back() < SMALL_RADIUS ? SMALL_GAIN
-                      : isTarget(candidate, BENT_RINGS)           ? BENT_GAIN
-                                                                  : NEEDED_GAIN;
+  const double gain = candidate.rings.radii.back() < SMALL_BENT_RADIUS ? SMALL_GAIN
+                      : isTarget(candidate, BENT_RINGS)                ? BENT_GAIN
+                                                                       : NEEDED_GAIN;
   std::vector<RadialEdgel> bent_edgels;
   if (bendRings(map, bent.rings) && settle(map, bgr, bent, bent_edgels) &&
       bent.boundaries.size() >= candidate.boundaries.size() &&

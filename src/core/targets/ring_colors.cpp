@@ -13,7 +13,6 @@ namespace
 {
 constexpr double BLURRED_WIDTH = 7;  // narrower rings have no place that the blur does not reach [px]
 constexpr int MIN_DIRECTIONS = 12;   // that make a median
-constexpr double DARKEST = .003;     // linear light: two grey levels in the dark, below it is noise
 
 // Of the directions by brightness: the first few may be something else, up to PART they count.
 constexpr double OUTLIERS = .05;
@@ -63,7 +62,7 @@ cv::Vec3d logLight(const cv::Vec3d& grey)
   cv::Vec3d light;
   for (int c = 0; c < 3; ++c)
   {
-    light[c] = std::log(linearLight(grey[2 - c]) + DARKEST);
+    light[c] = std::log(linearLight(grey[2 - c]) + DARKEST_LIGHT);
   }
   return light;
 }
@@ -126,7 +125,7 @@ std::vector<LinearColor> measureRingColors(const RingProfile& profile, const std
     LinearColor linear;
     for (int c = 0; c < 3; ++c)
     {
-      linear[c] = std::max(1e-4, std::exp(color[c] + level[c]) - DARKEST);
+      linear[c] = std::max(1e-4, std::exp(color[c] + level[c]) - DARKEST_LIGHT);
     }
     colors.push_back(linear);
   }

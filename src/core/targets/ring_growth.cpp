@@ -110,19 +110,6 @@ std::vector<double> clearances(const std::vector<double>& radii)
   return result;
 }
 
-/** Keeps at most max_points, evenly taken. */
-void thin(std::vector<BoundaryPoint>& points, std::size_t max_points)
-{
-  if (points.size() > max_points)
-  {
-    for (std::size_t i = 0; i < max_points; ++i)
-    {
-      points[i] = points[i * points.size() / max_points];
-    }
-    points.resize(max_points);
-  }
-}
-
 /** The edgels near their boundaries, evenly taken. */
 std::vector<BoundaryPoint> pointsOf(const std::vector<RadialEdgel>& edgels, double gate, std::size_t max_points,
                                     const Rings& rings)
@@ -266,7 +253,7 @@ bool growRings(EdgelMap& map, double reach, Rings& rings)
       break;
     }
     patient = !grown;
-    reach = std::max(nextReach(rings, patient), rings.radii.size() == 1 ? reach : 0.);
+    reach = nextReach(rings, patient);
   }
   return rings.radii.size() >= 2;
 }

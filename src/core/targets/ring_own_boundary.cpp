@@ -14,7 +14,6 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
   constexpr int LOOKS = 24;             // directions
   constexpr double REACH = .08;         // of the radius, to either side
   constexpr double MIN_REACH = 1.5;     // [px]
-  constexpr float DARK_LEVEL = 48;      // added to the brightness of both sides [grey levels]
   constexpr float FAINT = .05F;         // relative change that counts half
   constexpr double MIN_COHERENCE = .4;  // the same targets as without this look, in all development sets
   const double reach = std::max(MIN_REACH, REACH * radius);
@@ -32,7 +31,7 @@ bool changesAlike(const cv::Mat& bgr, const RingFamily& family, double radius)
       const cv::Vec3f inside = bgr.at<cv::Vec3b>(inner);
       const cv::Vec3f outside = bgr.at<cv::Vec3b>(outer);
       const float brightness =
-          std::max({inside[0], inside[1], inside[2]}) + std::max({outside[0], outside[1], outside[2]}) + DARK_LEVEL;
+          std::max({inside[0], inside[1], inside[2]}) + std::max({outside[0], outside[1], outside[2]}) + 2 * DARK_LEVEL;
       const cv::Vec3f change = (outside - inside) * (2 / brightness);
       sum += change * (1 / (static_cast<float>(cv::norm(change)) + FAINT));
       ++count;

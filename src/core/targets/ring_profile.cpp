@@ -14,8 +14,6 @@ namespace
 {
 constexpr double FINEST_STEP = .5;  // [px]
 constexpr int MAX_SAMPLES = 400;    // a ray
-// Added before the logarithm [grey levels]: below it sensor noise and black level, not light, decide.
-constexpr float DARK_LEVEL = 24;
 constexpr int LEVELS_PER_GREY = 4;
 // The margins of a ring that count as edge.
 constexpr double EDGE_SHARE = .3;      // of the ring's width

@@ -12,6 +12,9 @@ namespace omr
 /** Logarithm of B, G and R: a change of the light is a constant. */
 using LogColor = cv::Vec3f;
 
+/** Added to grey levels before their logarithm: below it sensor noise and black level, not light, decide. */
+constexpr float DARK_LEVEL = 24;
+
 /** Colours around a family's centre along rays, in the plane's polar coordinates. */
 struct RingProfile
 {

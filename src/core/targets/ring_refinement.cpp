@@ -169,6 +169,18 @@ class Fit
 };
 }  // namespace
 
+void thin(std::vector<BoundaryPoint>& points, std::size_t max_points)
+{
+  if (points.size() > max_points)
+  {
+    for (std::size_t i = 0; i < max_points; ++i)
+    {
+      points[i] = points[i * points.size() / max_points];
+    }
+    points.resize(max_points);
+  }
+}
+
 double refineFamily(const std::vector<BoundaryPoint>& points, bool perspective, RingFamily& family,
                     std::vector<double>& radii, double usual_perspective)
 {

@@ -15,6 +15,9 @@ struct BoundaryPoint
   double certainty = 1;  ///< factor of its distance to the circle
 };
 
+/** Keeps at most max_points, evenly taken. */
+void thin(std::vector<BoundaryPoint>& points, std::size_t max_points);
+
 /** Perspective moves a circle's rim by h R of its radius. A sheet filling a third of a wide-angle picture gives this.
  */
 constexpr double USUAL_PERSPECTIVE = 0.05;

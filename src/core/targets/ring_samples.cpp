@@ -44,7 +44,7 @@ std::vector<cv::Vec3d> medianProfile(const RingProfile& profile, int count)
 
 cv::Vec3d toHue(const cv::Vec3d& bgr)
 {
-  const double brightness = .114 * bgr[0] + .587 * bgr[1] + .299 * bgr[2];
+  const double brightness = GREY_WEIGHTS[0] * bgr[0] + GREY_WEIGHTS[1] * bgr[1] + GREY_WEIGHTS[2] * bgr[2];
   return {brightness, bgr[2] - brightness, bgr[0] - brightness};
 }
 
@@ -52,7 +52,7 @@ cv::Vec3d fromHue(const cv::Vec3d& hue)
 {
   const double red = hue[0] + hue[1];
   const double blue = hue[0] + hue[2];
-  return {blue, (hue[0] - .299 * red - .114 * blue) / .587, red};
+  return {blue, (hue[0] - GREY_WEIGHTS[2] * red - GREY_WEIGHTS[0] * blue) / GREY_WEIGHTS[1], red};
 }
 
 std::vector<cv::Vec3d> medianSamples(const RingProfile& profile, const std::vector<double>& radii)

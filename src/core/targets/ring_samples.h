@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_RING_SAMPLES_H
 #define OUTDOOR_OMR_CORE_RING_SAMPLES_H
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -8,6 +9,8 @@
 
 namespace omr
 {
+constexpr std::array<float, 3> GREY_WEIGHTS = {.114F, .587F, .299F};  ///< of B, G, R in the brightness
+
 /** Brightness, and the differences of red and blue to it: what cameras blur alike. @param bgr B, G, R [0, 255] */
 cv::Vec3d toHue(const cv::Vec3d& bgr);
 

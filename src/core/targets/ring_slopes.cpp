@@ -15,7 +15,6 @@ namespace
 constexpr int ANGLES = RingProfile::ANGLES;
 constexpr double MIN_RADIUS = 1.8;  // [px]; closer to the centre all directions see the same pixels
 constexpr double MIN_SLOPE = .01;   // over two pixels, relative to twice the brightness
-constexpr float DARK_LEVEL = 48;    // added to twice the brightness [grey levels]
 constexpr double VALLEY = .75;      // of the slope between two edges, relative to the weaker one
 constexpr double TURN = .5;         // cosine between the slopes of two edges of a narrow ring
 
@@ -43,7 +42,7 @@ cv::Vec3f medianSlope(const RingProfile& profile, int i, int reach)
     {
       const cv::Vec3f& inner = profile.greyRay(angle)[i - reach];
       const cv::Vec3f& outer = profile.greyRay(angle)[i + reach];
-      const float scale = 1 / (brightest(inner) + brightest(outer) + DARK_LEVEL);
+      const float scale = 1 / (brightest(inner) + brightest(outer) + 2 * DARK_LEVEL);
       for (int c = 0; c < 3; ++c)
       {
         values[c][count] = (outer[c] - inner[c]) * scale;
@@ -100,7 +99,7 @@ class SlopeLanes
     cv::v_load_deinterleave(inner, in[0], in[1], in[2]);
     cv::v_load_deinterleave(outer, out[0], out[1], out[2]);
     const cv::v_float32x4 brightness = cv::v_max(cv::v_max(in[0], in[1]), in[2]) +
-                                       cv::v_max(cv::v_max(out[0], out[1]), out[2]) + cv::v_setall_f32(DARK_LEVEL);
+                                       cv::v_max(cv::v_max(out[0], out[1]), out[2]) + cv::v_setall_f32(2 * DARK_LEVEL);
     const cv::v_float32x4 scale = cv::v_setall_f32(1) / brightness;
     for (int c = 0; c < 3; ++c)
     {
