@@ -122,6 +122,21 @@ TEST(ColorKey, theWayOfMeasuringThatOneKeyExplainsDecides)
   EXPECT_EQ("RWGB", readColorKey(ways({dark, glossy}), seen, true));
 }
 
+TEST(ColorKey, aLetterThatAnotherWayWouldChangeAtLittleCostIsUnknown)
+{
+  // RBPRG, the second ring in gloss: W at a cost of 6.93 as it was measured first, B at 6.95 in the darkest directions.
+  const std::vector<LinearColor> glossy = {LinearColor(.3, .046, .05),    LinearColor(.383, .426, .573),
+                                           LinearColor(.078, .057, .043), LinearColor(.439, .042, .072),
+                                           LinearColor(.038, .184, .082), WHITE};
+  const std::vector<LinearColor> dark = {LinearColor(.519, .029, .063), LinearColor(.165, .165, .4),
+                                         LinearColor(.052, .042, .059), LinearColor(.667, .048, .054),
+                                         LinearColor(.034, .36, .072),  WHITE};
+  const std::vector<bool> seen(5, true);
+  EXPECT_EQ("R?PRG", readColorKey(ways({glossy, dark}), seen, true));
+  EXPECT_EQ("RWPRG", readColorKey(ways({glossy}), seen, true));
+  EXPECT_EQ("RBPRG", readColorKey(ways({dark}), seen, true));
+}
+
 TEST(ColorKey, noFurtherWayIsMeasuredWhereAKeyExplainsTheFirst)
 {
   std::vector<omr::ColorMeasurement> measurements = ways({{RED, WHITE, GREEN, BLUE, WHITE}});

@@ -124,10 +124,14 @@ std::vector<White> possibleWhites(const std::vector<LinearColor>& rings, const s
   return whites;
 }
 
-/** Tries all whites and hazes; the best explanation so far, and for each ring and letter the least cost, may improve.
+/**
+ * Tries all whites and hazes; the best explanation so far, and for each ring and letter the least cost, may improve.
+ *
+ * @param way_cost of measuring the rings so.
  */
 void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& seen, const LinearColor& around,
-             double thickest_veil, Explanation& best, std::vector<Costs>& best_costs, std::vector<Costs>& alternatives)
+             double way_cost, double thickest_veil, Explanation& best, std::vector<Costs>& best_costs,
+             std::vector<Costs>& alternatives)
 {
   if (rings.empty())
   {
@@ -135,7 +139,7 @@ void explain(const std::vector<LinearColor>& rings, const std::vector<bool>& see
   }
   for (const White& white : possibleWhites(rings, seen, around))
   {
-    const double excess = excessCost(rings, seen, white.color);
+    const double excess = way_cost + excessCost(rings, seen, white.color);
     for (const double haze : HAZES)
     {
       const double assumed = white.cost + excess + HAZE_COST * haze;
@@ -190,31 +194,22 @@ std::string readColorKey(const std::vector<ColorMeasurement>& ways, const std::v
   }
   Explanation best;
   std::vector<Costs> best_costs;
-  std::vector<Costs> alternatives;
+  std::vector<Costs> alternatives(count);  // cheapest explanation that gives a ring a letter
+  for (Costs& alternative : alternatives)
+  {
+    alternative.fill(std::numeric_limits<double>::infinity());
+  }
   double way_cost = 0;
   for (const ColorMeasurement& measure : ways)
   {
-    if (!best.letters.empty() && best.cost < EXPLAINED * static_cast<double>(seen_count))
+    if (best.cost < EXPLAINED * static_cast<double>(seen_count))
     {
       break;
     }
     std::vector<LinearColor> rings = measure();
     const LinearColor around = rings.back();
     rings.pop_back();
-    Explanation explanation;
-    std::vector<Costs> costs;
-    std::vector<Costs> others(count);  // cheapest explanation that gives a ring a letter
-    for (Costs& other : others)
-    {
-      other.fill(std::numeric_limits<double>::infinity());
-    }
-    explain(rings, seen, around, is_sharp ? THICKEST_VEIL : 0, explanation, costs, others);
-    if (best.letters.empty() || explanation.cost + way_cost < best.cost)
-    {
-      best = explanation;
-      best_costs = costs;
-      alternatives = others;
-    }
+    explain(rings, seen, around, way_cost, is_sharp ? THICKEST_VEIL : 0, best, best_costs, alternatives);
     way_cost = OTHER_WAY_COST;
   }
   std::vector<double> ring_costs;

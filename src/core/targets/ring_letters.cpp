@@ -94,9 +94,10 @@ std::size_t findHalo(const ColorMeasurement& measure, const std::string& key, co
  */
 std::size_t findMerged(const std::vector<Boundary>& boundaries, std::string& key)
 {
-  for (std::size_t k = 0; k + 1 < key.size(); ++k)
+  const std::string read = key;
+  for (std::size_t k = 0; k + 1 < read.size(); ++k)
   {
-    if (key[k] != '?' && key[k] == key[k + 1])
+    if (read[k] != '?' && read[k] == read[k + 1])
     {
       if (!isEvident(boundaries[k]))
       {
