@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "target_views.h"
@@ -62,6 +63,37 @@ TEST(HiddenTargets, ringsAreReadWhereAThirdOfAStrongBoundaryShows)
     const std::vector<Target> targets = findTargetsIn(image);
     ASSERT_EQ(1U, targets.size()) << colors;
     EXPECT_EQ(colors, targets[0].colors);
+  }
+}
+
+TEST(HiddenTargets, noInkExplainsAThingOnTheDiskOfNarrowRings)
+{
+  TargetScene scene;
+  scene.light = .8;
+  scene.noise = 1;
+  for (const std::string colors : {"GWRWP", "GWRWB", "PWGWR"})
+  {
+    for (const double scale : {1., 2.})
+    {
+      for (const double blur : {.8, 1.})
+      {
+        scene.colors = colors;
+        scene.blur = blur;
+        scene.cover = 8.2 * scale;
+        scene.cover_offset = scale * cv::Point2d(.7, .4);
+        scene.sheet_half_side = 40 * scale;
+        scene.radii.clear();
+        for (int k = 0; k < 5; ++k)
+        {
+          scene.radii.push_back(scale * (8.5 + 4.3 * k));
+        }
+        std::vector<uchar> code;
+        cv::imencode(".jpg", renderTarget(scene), code, {cv::IMWRITE_JPEG_QUALITY, 92});
+        const std::vector<Target> targets = findTargetsIn(cv::imdecode(code, cv::IMREAD_COLOR));
+        ASSERT_EQ(1U, targets.size()) << colors << " " << blur;
+        EXPECT_EQ("?" + colors.substr(1), targets[0].colors) << blur;
+      }
+    }
   }
 }
 

@@ -135,6 +135,23 @@ class InkFit::Sequence
     return result;
   }
 
+  /** Fall of the rest if a ring had the colour that explains most, of each ring. */
+  std::vector<double> excesses() const
+  {
+    std::vector<double> result;
+    for (int k = 0; k < static_cast<int>(letters_.size()); ++k)
+    {
+      const cv::Vec3d square = rest_.square(k, k);
+      double fall = 0;
+      for (int c = 0; c < 3; ++c)
+      {
+        fall += slopes_[k][c] * slopes_[k][c] / square[c];
+      }
+      result.push_back(fall);
+    }
+    return result;
+  }
+
  private:
   static constexpr int NONE = -1;  // a letter where there is no ring
   static constexpr double NOTHING = 1e-6;
@@ -271,13 +288,25 @@ InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& r
   return {sequence.rest() + tintCost(lightOf(fromHue(around))), sequence.letters(), haze, {}};
 }
 
-std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& result) const
+/** The call's result for the sequence of the result's letters. */
+template <typename Call>
+std::vector<double> InkFit::ofEachRing(const std::vector<double>& radii, const Result& result, const Call& call) const
 {
   const InkRestPart brightness(source_, 0, result.deviations[0], radii);
   const InkRestPart hue(source_, 1, result.deviations[1], radii);
   const Inks inks = inksUnder(fromHue(source_.samples.back()), result.haze);
   const InkRest rest(brightness, hue);
-  return Sequence(rest, inks, result.letters, source_.samples.back()).margins();
+  return call(Sequence(rest, inks, result.letters, source_.samples.back()));
+}
+
+std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& result) const
+{
+  return ofEachRing(radii, result, [](const Sequence& sequence) { return sequence.margins(); });
+}
+
+std::vector<double> InkFit::excesses(const std::vector<double>& radii, const Result& result) const
+{
+  return ofEachRing(radii, result, [](const Sequence& sequence) { return sequence.excesses(); });
 }
 
 }  // namespace omr

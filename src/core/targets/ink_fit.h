@@ -44,10 +44,15 @@ class InkFit
   /** Further rest if a ring had another letter, of each ring. @param result of the same radii. */
   std::vector<double> margins(const std::vector<double>& radii, const Result& result) const;
 
+  /** What the ink of a ring leaves that any colour in its place would not, of each ring. @param result likewise. */
+  std::vector<double> excesses(const std::vector<double>& radii, const Result& result) const;
+
  private:
   class Sequence;
 
   Result explain(const InkRest& rest, const std::vector<double>& radii, double haze) const;
+  template <typename Call>
+  std::vector<double> ofEachRing(const std::vector<double>& radii, const Result& result, const Call& call) const;
   template <typename Call>
   void forEachBlur(const std::vector<double>& radii, const Call& call) const;
 

@@ -12,7 +12,8 @@ namespace omr
 struct NarrowRings
 {
   std::vector<double> radii;  ///< of the boundaries, ascending [px]
-  std::string letters;        ///< of the key; '?' where another explains it nearly as well
+  std::string letters;        ///< of the key; '?' where another explains it nearly as well, or none does
+  std::vector<double> rests;  ///< of each ring, what its ink leaves that any colour in its place would not
 };
 
 /**

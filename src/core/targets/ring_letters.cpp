@@ -37,6 +37,10 @@ constexpr double HALO_HUE = .15;   // most, from the line between the neighbours
 constexpr double NARROW_MEAN = 7;     // width of all rings, most: a narrow one among wide ones is no ring [px]
 constexpr double ROUND = .7;          // share of the directions, least: outlines of square sheets have .52 to .62
 constexpr double SAME_BOUNDARY = .5;  // most, of the width of the narrowest ring
+// Narrower rings are hidden by the blur, which inks explain; wider ones by what lies on them. Where the key knows no
+// letter of such a one, its ink must leave less: of brown things on disks inks leave 4.4 to 23.
+constexpr double COVERED_WIDTH = 5;  // [px]
+constexpr double MOST_COVERED_REST = 4;
 
 /** Whether there is a boundary, whatever the colours. */
 bool isEvident(const Boundary& boundary)
@@ -155,6 +159,28 @@ bool isRound(const Boundary& boundary)
   return share(boundary.agreeing & boundary.supported) > ROUND;
 }
 
+/** Letters that inks explain, but that something may hide, become '?'. @param key what colours alone tell. */
+void doubtHidden(const RingCandidate& candidate, const std::string& key, NarrowRings& rings)
+{
+  const double apart = SAME_BOUNDARY * narrowestRing(rings.radii);
+  double inner = 0;
+  for (std::size_t k = 0; k < rings.radii.size(); ++k)
+  {
+    bool is_shown = true;
+    for (std::size_t i = 0; i < candidate.boundaries.size(); ++i)
+    {
+      const double radius = candidate.profile_scale * candidate.rings.radii[i];
+      is_shown = is_shown && (candidate.boundaries[i].shown || std::abs(radius - rings.radii[k]) > apart);
+    }
+    const bool is_unexplained = key.size() == rings.radii.size() && key[k] == '?' && rings.rests[k] > MOST_COVERED_REST;
+    if (rings.radii[k] - inner > COVERED_WIDTH * candidate.profile_scale && (!is_shown || is_unexplained))
+    {
+      rings.letters[k] = '?';
+    }
+    inner = rings.radii[k];
+  }
+}
+
 /** Gives the candidate other rings, with what is known of those of their boundaries that were found. */
 void takeRings(std::vector<double> radii, RingCandidate& candidate)
 {
@@ -196,6 +222,7 @@ std::string readLetters(RingCandidate& candidate)
     const bool is_sheet = radii.size() > 2 && !isRound(candidate.boundaries.back());
     if ((is_sheet && read({radii.begin(), radii.end() - 1})) || read(radii))
     {
+      doubtHidden(candidate, letters, rings);
       takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
       return rings.letters;
     }
