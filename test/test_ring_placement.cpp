@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "render_target.h"
 #include "targets/boundary_arcs.h"
 #include "targets/ring_placement.h"
+#include "targets/target_reading.h"
 
 using omr::Boundary;
 using omr::BoundaryArc;
@@ -51,7 +53,7 @@ struct Placed
 {
   RingFamily truth, family;
   std::vector<double> radii;
-  double deviation = 0;  // stated
+  std::optional<double> deviation;  // stated
 
   /** Distance of the outermost ellipse's centre from the true one [px]. */
   double error() const
@@ -112,7 +114,8 @@ TEST(RingPlacement, statesItsErrorAlsoWhereLittleShows)
       scene.seed = seed;
       const Placed placed = place(scene, renderTarget(scene), agreeing);
       squared += placed.error() * placed.error() / 2;  // of each coordinate
-      stated += placed.deviation * placed.deviation;
+      ASSERT_TRUE(placed.deviation);
+      stated += *placed.deviation * *placed.deviation;
     }
     const double ratio = std::sqrt(squared / stated);
     EXPECT_GT(ratio, .4) << std::sqrt(stated / RUNS);
@@ -156,8 +159,22 @@ TEST(RingPlacement, ringsStayWhereNothingShows)
        {place(scene, image, 0), place(scene, cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90)))})
   {
     EXPECT_NEAR(.2, placed.error(), .01);
-    EXPECT_EQ(0, placed.deviation);
+    EXPECT_FALSE(placed.deviation);
   }
+}
+
+TEST(RingPlacement, whatThePixelsDoNotPlaceIsNoTarget)
+{
+  const TargetScene scene;
+  const cv::Mat image = renderTarget(scene);
+  omr::EdgelMap map(image);
+  RingFamily family;
+  family.center = projectedCenter(scene);
+  omr::RingCandidate candidate;
+  ASSERT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+  EXPECT_EQ(1U, omr::readTargets(image, {candidate}, 3).size());
+  EXPECT_EQ(1U, omr::readTargets({}, {candidate}, 3).size()) << "no pixels to ask";
+  EXPECT_EQ(0U, omr::readTargets(cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90)), {candidate}, 3).size());
 }
 
 TEST(RingPlacement, needsNoBoundaries)
@@ -180,7 +197,17 @@ TEST(RingPlacement, ringsBeyondTheImageAreNotRead)
 {
   TargetScene scene = tiltedScene();
   scene.homography = tiltedView({3, 4}, .6, .7, std::sqrt(AREA), 900);
-  EXPECT_LT(place(scene, renderTarget(scene)).error(), .5);
+  const cv::Mat image = renderTarget(scene);
+  const Placed placed = place(scene, image);
+  ASSERT_TRUE(placed.deviation);
+  EXPECT_LT(*placed.deviation, .6);
+  EXPECT_LT(placed.error(), 1.5 * *placed.deviation);
+  const std::vector<BoundaryArc> arcs = omr::measureArcs(image, placed.truth, placed.radii);
+  EXPECT_GT(arcs.size(), 20U);
+  for (const BoundaryArc& arc : arcs)
+  {
+    EXPECT_TRUE(cv::Rect2d({}, cv::Size2d(image.size())).contains(arc.position)) << arc.position;
+  }
 }
 
 int main(int argc, char** argv)

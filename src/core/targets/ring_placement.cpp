@@ -58,13 +58,9 @@ std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std:
 }
 }  // namespace
 
-double placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, RingFamily& family,
-                  std::vector<double>& radii)
+std::optional<double> placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, RingFamily& family,
+                                 std::vector<double>& radii)
 {
-  if (family.isBent())
-  {
-    return 0;
-  }
   std::vector<BoundaryArc> arcs = measureArcs(bgr, family, radii);
   if (boundaries.size() == radii.size())
   {
@@ -78,8 +74,12 @@ double placeRings(const cv::Mat& bgr, const std::vector<Boundary>& boundaries, R
   const double tilt = std::max(LEAST_TILT, std::sqrt(1 - 1 / (aspect * aspect)));
   const double perspective = std::min(USUAL_PERSPECTIVE, tilt * radii.back() / std::max(bgr.cols, bgr.rows));
   const std::vector<BoundaryPoint> points = openPoints(arcs, radii.size());
-  const bool is_placed = std::isfinite(refineFamily(points, true, family, radii, perspective));
-  return is_placed ? outermostDeviation(points, family, radii, perspective) : 0;
+  if (!std::isfinite(refineFamily(points, true, family, radii, perspective)))
+  {
+    return std::nullopt;
+  }
+  const double deviation = outermostDeviation(points, family, radii, perspective);
+  return deviation > 0 ? std::optional<double>(deviation) : std::nullopt;
 }
 
 }  // namespace omr

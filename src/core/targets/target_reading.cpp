@@ -1,6 +1,7 @@
 #include "target_reading.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "ring_letters.h"
@@ -96,9 +97,15 @@ bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target
   {
     return false;
   }
-  if (!bgr.empty())
+  if (!bgr.empty() && !candidate.rings.family.isBent())
   {
-    target.outermost_deviation = placeRings(bgr, candidate.boundaries, candidate.rings.family, candidate.rings.radii);
+    const std::optional<double> deviation =
+        placeRings(bgr, candidate.boundaries, candidate.rings.family, candidate.rings.radii);
+    if (!deviation)
+    {
+      return false;
+    }
+    target.outermost_deviation = *deviation;
     setRings(candidate.rings, target);
   }
   return isSure(target, candidate.rings.radii.back());
