@@ -99,8 +99,33 @@ TEST(RoundSpots, aCentreOutsideTheImageIsNone)
     omr::RoundSpot spot;
     spot.center = {random.uniform(4., 14.), random.uniform(20., 80.)};
     omr::RingCandidate candidate;
-    ASSERT_NO_THROW(omr::growSpot(map, image, spot, 3, candidate)) << i;
+    EXPECT_FALSE(omr::growSpot(map, image, spot, 3, candidate)) << i;
   }
+}
+
+TEST(RoundSpots, growAlikeWhateverWasSpentBefore)
+{
+  int in_the_image = 0;
+  for (const double ring : {2.5, 3., 3.5})
+  {
+    TargetScene scene = smallTarget(ring, .3);
+    scene.blur = 1;
+    const cv::Mat image = renderTarget(scene);
+    omr::RoundSpot spot;
+    spot.center = projectedCenter(scene);
+    const omr::EdgelMap fresh(image);
+    omr::EdgelMap spent(image);
+    spent.setMaxLooks(0);
+    spent.visit(0, 0, 479, 359, [](const omr::Edgel&) {});
+    ASSERT_TRUE(spent.isSpent());
+    omr::RingCandidate expected;
+    omr::RingCandidate candidate;
+    EXPECT_EQ(omr::growSpot(fresh, image, spot, 3, expected), omr::growSpot(spent, image, spot, 3, candidate)) << ring;
+    EXPECT_EQ(expected.profile_scale, candidate.profile_scale) << ring;
+    EXPECT_EQ(expected.rings.radii, candidate.rings.radii) << ring;
+    in_the_image += expected.profile_scale == 1 && !expected.boundaries.empty() ? 1 : 0;
+  }
+  EXPECT_GT(in_the_image, 0);
 }
 
 TEST(RoundSpots, textureCornersAndBarsAreNone)

@@ -11,7 +11,7 @@ namespace omr
 {
 namespace
 {
-constexpr double FAMILIES_SHARE = .4;
+constexpr double FAMILIES_SHARE = .4;  // of the looks, for each family
 }  // namespace
 
 void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
@@ -94,7 +94,10 @@ void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, Roun
       {
         candidates.push_back(grown.candidate);
       }
-      seeds.grown[i].emplace(std::move(grown));
+      if (grown.is_target || !grown.map.isSpent())  // else it may have been cut off: it is grown anew
+      {
+        seeds.grown[i].emplace(std::move(grown));
+      }
     }
   }
 }

@@ -26,6 +26,8 @@ constexpr double RELATIVE_RMS = .002;  // more, relative to the outer radius
 constexpr double LEAST_OTHER_KIND = .7;
 constexpr double LEAST_VOTES = .3;  // of the edges of a spot: a quarter to a half of those in clutter have more
 
+constexpr std::size_t MAX_LOOKS = 200000;  // at edgels of the image, for one spot, whatever was spent before
+
 cv::Rect squareAround(const cv::Point2d& center, double half_side)
 {
   const int side = cvRound(2 * half_side);
@@ -115,6 +117,7 @@ bool growSpot(const EdgelMap& map, const cv::Mat& bgr, const RoundSpot& spot, in
   RingCandidate enlarged;
   const bool is_enlarged_target = growEnlarged(bgr, seed, enlarged) && isSmallTarget(enlarged, min_rings);
   EdgelMap fork = map.fork();
+  fork.setMaxLooks(fork.looks() + MAX_LOOKS);
   const bool is_target = growCandidate(fork, bgr, seed, false, candidate) && isSmallTarget(candidate, min_rings);
   if (is_enlarged_target && (!is_target || score(enlarged) > score(candidate)))
   {
