@@ -99,6 +99,30 @@ TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)
   EXPECT_NEAR(0, cv::norm(candidates[0].rings.family.center - projectedCenter(scene) - cv::Point2d(600, 400)), .2);
 }
 
+TEST(RingSearch, companionsAreThoseOfTheLargerRegionOnEitherSide)
+{
+  const auto disk = [](const cv::Point2d& center, int radius) {
+    omr::Region region;
+    region.center = center;
+    region.area = static_cast<int>(CV_PI * radius * radius);
+    region.cxx = region.cyy = radius * radius / 4.;
+    region.box = {static_cast<int>(center.x) - radius, static_cast<int>(center.y) - radius, 2 * radius, 2 * radius};
+    return region;
+  };
+  for (const double offset : {-3., 3.})
+  {
+    const std::vector<omr::RingSeed> seeds =
+        omr::findRoundSeeds({disk({200, 200}, 100), disk({200 + offset, 200}, 20)});
+    ASSERT_EQ(2U, seeds.size());
+    EXPECT_EQ(1, seeds[0].companions) << offset;
+    EXPECT_EQ(1, seeds[1].companions) << offset;
+  }
+  for (const omr::RingSeed& seed : omr::findRoundSeeds({disk({200, 200}, 100), disk({205, 200}, 20)}))
+  {
+    EXPECT_EQ(0, seed.companions);
+  }
+}
+
 TEST(RingSearch, seedsGrownAheadGiveTheSame)
 {
   TargetScene scene;

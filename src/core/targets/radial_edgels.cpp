@@ -13,6 +13,9 @@ namespace omr
 namespace
 {
 constexpr double MIN_RADIUS = .8;  // of an edgel [px]
+// Of the circle's box, which perspective widens.
+constexpr double LEAST_MAGNIFICATION = 1.1;
+constexpr double LEAST_NEARNESS = .2;
 // Radial edgels for which there is memory at once: to let it grow took 2 % of the CPU time of noise.
 constexpr double USUAL_SHARE = .05;  // of the pixels of the family's box
 constexpr double MOST_USUAL = 65536;
@@ -168,7 +171,9 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
                          std::vector<RadialEdgel>& edgels)
 {
   edgels.clear();
-  const cv::Point2d half = family.halfBox(max_radius) * 1.1 + cv::Point2d(1, 1);
+  const double nearness = 1 - std::hypot(family.hx, family.hy) * max_radius;  // of the point nearest to the horizon
+  const double magnification = std::max(LEAST_MAGNIFICATION, 1 / std::max(LEAST_NEARNESS, nearness));
+  const cv::Point2d half = family.halfBox(max_radius) * magnification + cv::Point2d(1, 1);
   edgels.reserve(static_cast<std::size_t>(std::min(MOST_USUAL, USUAL_SHARE * 4 * half.x * half.y)));
   const cv::Point2d top_left = family.center - half;
   const cv::Point2d bottom_right = family.center + half;

@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_RING_BOUNDARIES_H
 #define OUTDOOR_OMR_CORE_RING_BOUNDARIES_H
 
+#include <cstddef>
 #include <vector>
 
 #include "radial_edgels.h"
@@ -8,6 +9,8 @@
 
 namespace omr
 {
+constexpr std::size_t MOST_TARGET_RINGS = 9;
+
 /** A circle on which the colour steps by the same amount in (nearly) all directions. */
 struct Boundary
 {

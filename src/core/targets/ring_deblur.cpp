@@ -75,7 +75,7 @@ double mergedBoundary(const RingProfile& profile, const std::vector<double>& rad
   for (std::size_t ring = 0; ring < radii.size() && best_rms > 0; ++ring)
   {
     const double inner = ring > 0 ? radii[ring - 1] : 0;
-    if (radii[ring] - inner < MERGED_WIDTH * narrowest)
+    if (radii[ring] - inner < std::max(2 * NARROWEST, MERGED_WIDTH * narrowest))
     {
       continue;
     }

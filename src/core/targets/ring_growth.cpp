@@ -23,7 +23,8 @@ constexpr std::size_t ENOUGH = 3;  // boundaries to find further ones in the pro
 
 // At edgels, of one growth. Targets of 200 px radius take 70000; in clutter growth goes on to the largest radius.
 constexpr std::size_t MAX_LOOKS = 80000;
-constexpr double MAX_RADIUS = 600;          // [px]
+constexpr double MAX_RADIUS = 600;          // to look for further boundaries in [px]
+constexpr double LEAST_REACH = 1.05;        // of what is found already: it stays in sight
 constexpr std::size_t COARSE_POINTS = 200;  // that a fit uses while growing
 constexpr std::size_t FINE_POINTS = 800;
 constexpr double LARGEST_RMS = 1;             // of the edgels of the first boundary [px]
@@ -165,7 +166,8 @@ bool refineFirst(const std::vector<RadialEdgel>& edgels, double gate, Rings& rin
 double nextReach(const Rings& rings, bool patient)
 {
   const double outermost = rings.radii.back();
-  return std::min(MAX_RADIUS, (rings.radii.size() == 1 ? (patient ? 5 : 2.4) : (patient ? 2.2 : 1.6)) * outermost + 5);
+  const double reach = (rings.radii.size() == 1 ? (patient ? 5 : 2.4) : (patient ? 2.2 : 1.6)) * outermost + 5;
+  return std::min(std::max(MAX_RADIUS, LEAST_REACH * outermost), reach);
 }
 }  // namespace
 

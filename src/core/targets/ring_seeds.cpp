@@ -62,7 +62,8 @@ bool isRound(const Region& region, RingSeed& seed)
   return fills_box && familyFromMoments(region.center, region.cxx, region.cxy, region.cyy, seed.family) &&
          seed.family.aspect() < MAX_ASPECT;
 }
-/** Counts for each seed the others with the same centre, up to MAX_COMPANIONS. */
+
+/** Counts for each seed the others with the same centre, up to MAX_COMPANIONS. @param seeds by ascending radius. */
 void countConcentric(std::vector<RingSeed>& seeds)
 {
   std::vector<std::size_t> by_x(seeds.size());
@@ -70,16 +71,18 @@ void countConcentric(std::vector<RingSeed>& seeds)
   std::sort(by_x.begin(), by_x.end(), [&](std::size_t left, std::size_t right) {
     return seeds[left].family.center.x < seeds[right].family.center.x;
   });
+  const auto reach_of = [](double radius) { return CONCENTRIC_SLACK + CONCENTRIC_TOLERANCE * radius; };
+  const double farthest = reach_of(seeds.empty() ? 0 : seeds.back().radius);
   for (auto i = by_x.begin(); i != by_x.end(); ++i)
   {
-    const RingSeed& seed = seeds[*i];
-    const double reach = CONCENTRIC_SLACK + CONCENTRIC_TOLERANCE * seed.radius;
-    for (auto j = i + 1; j != by_x.end() && seeds[*j].family.center.x - seed.family.center.x < reach; ++j)
+    RingSeed& seed = seeds[*i];
+    for (auto j = i + 1; j != by_x.end() && seeds[*j].family.center.x - seed.family.center.x < farthest; ++j)
     {
-      if (cv::norm(seeds[*j].family.center - seed.family.center) < reach)
+      RingSeed& other = seeds[*j];
+      if (cv::norm(other.family.center - seed.family.center) < reach_of(std::max(seed.radius, other.radius)))
       {
-        seeds[*i].companions = std::min(seeds[*i].companions + 1, MAX_COMPANIONS);
-        seeds[*j].companions = std::min(seeds[*j].companions + 1, MAX_COMPANIONS);
+        seed.companions = std::min(seed.companions + 1, MAX_COMPANIONS);
+        other.companions = std::min(other.companions + 1, MAX_COMPANIONS);
       }
     }
   }
