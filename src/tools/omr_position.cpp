@@ -29,9 +29,9 @@ void printPart(const omr::PartPose& part)
   const cv::Vec3d turn = omr::rollPitchYaw(part.pose.camera_part.rotation()) * (180 / CV_PI);
   std::cout << part.part << " at (" << std::setprecision(5) << position[0] << ", " << position[1] << ", " << position[2]
             << ") m +- " << std::setprecision(2) << omr::positionRadius95(part.pose.covariance) * 1000
-            << " mm, rpy_degrees (" << turn[0] << ", " << turn[1] << ", " << turn[2] << "), "
+            << " mm, rpy_degrees (" << std::setprecision(5) << turn[0] << ", " << turn[1] << ", " << turn[2] << "), "
             << part.checkerboards.size() << " checkerboards, " << part.targets.size() << " targets, reprojection error "
-            << part.pose.rms_error << " px\n";
+            << std::setprecision(2) << part.pose.rms_error << " px\n";
 }
 
 void printSummary(const std::string& image, const std::vector<omr::Sighting>& sightings)
