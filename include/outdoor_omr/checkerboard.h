@@ -35,7 +35,9 @@ struct Checkerboard
 
   /**
    * True: on all four sides the end of the board, dark rim squares against a light margin, was seen. False: a side is
-   * hidden, or the board touches or leaves the picture; the board may then have more rows or columns than were found.
+   * hidden or has no light margin, or the board touches or leaves the picture; it may then have more rows or columns
+   * than were found. False as well where a band right across the board hides two lines of inner corners side by side:
+   * it may be the gap between two boards.
    */
   bool size_certain = true;
 };

@@ -1,5 +1,7 @@
 #include "border.h"
 
+#include <algorithm>
+
 #include "lattice_prediction.h"
 #include "rim_look.h"
 
@@ -83,10 +85,11 @@ BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, i
   return lookAtLine(lattice, frame, side, lineIndex(lattice, side, distance), BORDER_WINDOW + distance);
 }
 
-bool rimGoesOn(const Lattice& lattice, const Frame& frame, Side side)
+int rimBeyond(const Lattice& lattice, const Frame& frame, Side side)
 {
-  constexpr int SQUARES = 3;  // beyond the border; farther the forecast is too vague
+  constexpr int CORNERS = 3;  // beyond the border; farther the forecast is too vague
   const int border = lineIndex(lattice, side, 1);
+  int most = 0;
   for (const Side neighbor : SIDES)
   {
     if (isRow(neighbor) == isRow(side))
@@ -94,18 +97,18 @@ bool rimGoesOn(const Lattice& lattice, const Frame& frame, Side side)
       continue;
     }
     const int rim = lineIndex(lattice, neighbor, 1);
-    for (int beyond = 1; beyond <= SQUARES; ++beyond)
+    int seen = 0;
+    for (int beyond = 1; beyond <= CORNERS; ++beyond)
     {
       const Node node = nodeOnLine(neighbor, rim, border - beyond * inwards(side));
       RimPlace place;
-      if (placeAt(lattice, neighbor, node, BORDER_WINDOW + 1 + beyond, place) &&
-          lookAtRim(frame, place, lattice.medianContrast()) == RimLook::outer_corner)
-      {
-        return true;
-      }
+      const bool is_there = placeAt(lattice, neighbor, node, BORDER_WINDOW + 1 + beyond, place) &&
+                            lookAtRim(frame, place, lattice.medianContrast()) == RimLook::outer_corner;
+      seen += is_there ? 1 : 0;
     }
+    most = std::max(most, seen);
   }
-  return false;
+  return most;
 }
 
 }  // namespace omr

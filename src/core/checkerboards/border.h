@@ -14,7 +14,7 @@ struct BorderLine
 {
   int places = 0;   ///< outer corners forecast inside the picture
   int outside = 0;  ///< outer corners forecast outside the picture
-  int seen = 0;     ///< those of them that are there
+  int seen = 0;     ///< of the places, where an outer corner is
   int edges = 0;    ///< places where only the edge of a dark square is there
   int bare = 0;     ///< places where a dark and a light square end at one plain ground, without a margin
   int goes_on = 0;  ///< places where four squares meet instead
@@ -41,10 +41,10 @@ BorderLine lookAtBorder(const Lattice& lattice, const Frame& frame, Side side, i
 BorderLine lookAtLine(const Lattice& lattice, const Frame& frame, Side side, int line, int window);
 
 /**
- * Whether a square of a neighbouring side's rim is seen beyond this side's border: a thing then covers the middle of a
- * board that goes on, and its edge was taken for the border.
+ * How many of the first three corners of a neighbouring side's rim are seen beyond this side's border, the more of both
+ * neighbours. Some are where a thing covers the middle of a board that goes on, and its edge was taken for the border.
  */
-bool rimGoesOn(const Lattice& lattice, const Frame& frame, Side side);
+int rimBeyond(const Lattice& lattice, const Frame& frame, Side side);
 
 }  // namespace omr
 

@@ -21,6 +21,7 @@
 #include "lattice_extent.h"
 #include "lattice_gaps.h"
 #include "lattice_growth.h"
+#include "lattice_seam.h"
 #include "regularity.h"
 #include "saddle_groups.h"
 #include "search_map.h"
@@ -118,9 +119,18 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
   jumpGaps(lattice, looker);
   fillHoles(lattice, looker);
   splitAtBorders(lattice, looker.frame());
+  const std::vector<Seam> seams = splitAtSeams(lattice);
   dropOutliers(lattice);
   sides = settleExtent(lattice, looker);
   settleRims(looker.frame(), lattice, sides);
+  for (const Seam& seam : seams)
+  {
+    // The squares of the next board look as if this one went on.
+    if (sides[seam.beyond] == SideEvidence::none && lineIndex(lattice, seam.beyond, 1) == seam.line)
+    {
+      sides[seam.beyond] = SideEvidence::rim;
+    }
+  }
   if (!isBoard(lattice, sides))
   {
     sections.add(lattice);
@@ -141,7 +151,7 @@ bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence
   for (const Side side : SIDES)
   {
     if (sides[side] == SideEvidence::doubtful_border && lookAtBorder(lattice, frame, side, 1).ends() &&
-        !rimGoesOn(lattice, frame, side))
+        rimBeyond(lattice, frame, side) == 0)
     {
       sides[side] = SideEvidence::border;
     }
@@ -201,6 +211,7 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
 Checkerboard finish(const Candidate& candidate, const Frame& frame, const RegionMap& regions)
 {
   Lattice lattice = candidate.lattice;  // of the search, which may go on with it
+  const bool joined = hasSeam(lattice);
   const std::vector<bool> seen = refineCorners(frame, lattice);
   Checkerboard board = orderCheckerboard(lattice, seen);
   const Regularity regularity =
@@ -211,7 +222,7 @@ Checkerboard finish(const Candidate& candidate, const Frame& frame, const Region
                            static_cast<float>(frame.raw_grey.rows - 1));
   const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
                                   [&](const auto& corner) { return picture.contains(corner); });
-  board.size_certain = inside && isSizeCertain(frame, lattice, seen, candidate.sides);
+  board.size_certain = inside && !joined && isSizeCertain(frame, lattice, seen, candidate.sides);
   return board;
 }
 

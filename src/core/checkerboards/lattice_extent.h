@@ -17,7 +17,7 @@ void dropOutliers(Lattice& lattice);
 enum class SideEvidence
 {
   border,           ///< the border of the board is seen, with its margin
-  doubtful_border,  ///< the same beside hidden corners, but the rim goes on: the edge of what hides them
+  doubtful_border,  ///< the same, but the rim goes on: the edge of what hides a part of the board
   bare,  ///< the squares end at plain ground: a board without a margin, or the edge of a thing that lies on it
   rim,   ///< the last line of inner corners is seen, not the border: a narrow margin, or little of it is visible
   cut,   ///< the border lies outside the picture

@@ -127,21 +127,28 @@ double marginDepth(const Frame& frame, const LatticeModel& model, const Lattice&
   return 0;
 }
 
-/** Whether a corner is seen on the outermost line: of 1234 sizes of boards below drawn fences 1 certain and wrong -> 0,
- * 1233 certain and right -> 1215. */
-bool showsLine(const Lattice& lattice, const std::vector<bool>& seen, Side side)
+/**
+ * Whether corners are seen on the outermost lines - of 1234 sizes of boards below drawn fences 1 certain and wrong ->
+ * 0, 1233 certain and right -> 1215 - and on one of any two lines side by side: where none is seen two boards may have
+ * been joined across a gap. Of 108 drawn pairs 0.8 to 3 squares apart 76 were certain -> 0; of 753 boards 748 stay.
+ */
+bool showsLines(const std::vector<bool>& lines)
 {
-  const int line = lineIndex(lattice, side, 0);
-  const int start = lineStart(lattice, side);
-  for (int t = start; t < start + lineLength(lattice, side); ++t)
+  const auto both_hidden = [](bool line, bool next) { return !line && !next; };
+  return lines.front() && lines.back() && std::adjacent_find(lines.begin(), lines.end(), both_hidden) == lines.end();
+}
+
+/** @param seen by the nodes of a box of that size. */
+bool showsLines(const cv::Size& size, const std::vector<bool>& seen)
+{
+  std::vector<bool> rows(size.height, false);
+  std::vector<bool> cols(size.width, false);
+  for (int i = 0; i < size.area(); ++i)
   {
-    const Node node = nodeOnLine(side, line, t);
-    if (seen[(node.row - lattice.box.y) * lattice.box.width + node.col - lattice.box.x])
-    {
-      return true;
-    }
+    rows[i / size.width] = rows[i / size.width] || seen[i];
+    cols[i % size.width] = cols[i % size.width] || seen[i];
   }
-  return false;
+  return showsLines(rows) && showsLines(cols);
 }
 }  // namespace
 
@@ -149,12 +156,11 @@ bool isSizeCertain(const Frame& frame, const Lattice& lattice, const std::vector
                    const std::array<SideEvidence, 4>& sides)
 {
   constexpr double MAX_DIFFERENCE = 0.12;  // squares
-  if (!std::all_of(SIDES.begin(), SIDES.end(), [&](Side side) { return showsLine(lattice, seen, side); }))
+  if (!showsLines(lattice.box.size(), seen))
   {
     return false;
   }
-  if (std::count(sides.begin(), sides.end(), SideEvidence::border) == 4 ||
-      std::count(sides.begin(), sides.end(), SideEvidence::bare) == 4)
+  if (std::count(sides.begin(), sides.end(), SideEvidence::border) == 4)
   {
     return true;
   }

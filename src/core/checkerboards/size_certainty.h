@@ -11,12 +11,13 @@
 namespace omr
 {
 /**
- * Whether all four ends of a board are seen, so that nothing hidden may belong to it: borders, or bare ends on all
- * sides, or a narrow margin, where dark squares of the rim end along one line and light ones do not, as far out as on
- * the opposite side.
+ * Whether all four ends of a board are seen, so that nothing hidden may belong to it: borders, or a narrow margin,
+ * where dark squares of the rim end along one line and light ones do not, as far out as on the opposite side. Bare ends
+ * are none: the window of a mat ends squares so too (of 45 drawn ones 26 were certain -> 2).
  *
  * @param lattice its refined corners.
- * @param seen    what refineCorners() gave: without a corner that is seen on the outermost line no end is.
+ * @param seen    what refineCorners() gave. Where none is seen on an outermost line, no end is; where none is on two
+ *                lines side by side, they may be the gap between two boards.
  */
 bool isSizeCertain(const Frame& frame, const Lattice& lattice, const std::vector<bool>& seen,
                    const std::array<SideEvidence, 4>& sides);
