@@ -128,6 +128,15 @@ TEST(Lattice, unevennessIsOfClutterNotOfPerspectiveOrCurvature)
   EXPECT_GT(latticeEvidence(latticeOf(6, 6, clutter)).unevenness, 0.2);
 }
 
+TEST(Lattice, cornersThatTellNothingOfEvennessAreNotEven)
+{
+  const auto even = [](int col, int row) {
+    return cv::Point2f(20.F * static_cast<float>(col), 20.F * static_cast<float>(row));
+  };
+  EXPECT_GT(latticeEvidence(latticeOf(2, 2, even)).doubt(), 1e6F);
+  EXPECT_LT(latticeEvidence(latticeOf(2, 3, even)).doubt(), 0.01F);
+}
+
 TEST(Lattice, theModelTellsCornersThatDoNotFit)
 {
   const auto flat = [](int col, int row) {

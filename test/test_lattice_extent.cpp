@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checkerboards/border.h"
 #include "checkerboards/lattice.h"
 #include "checkerboards/lattice_gaps.h"
 #include "lattices.h"
@@ -54,6 +55,30 @@ TEST(LatticeExtent, aSingleCornerOnPlainGroundEndsNoBoard)
   const auto sides = settleExtent(lattice, looker);
   EXPECT_EQ(cv::Size(10, 6), lattice.box.size());
   EXPECT_EQ(omr::SideEvidence::none, sides[omr::left]);
+}
+
+TEST(LatticeExtent, aBorderIsJudgedByAllOfItsPlaces)
+{
+  const cv::Matx33d truth = omr::test::boardHomography(7, 11, {320, 240}, 36, 4);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  Render render({640, 480}, cv::Scalar::all(90));
+  render.addBoard(7, 11, truth);
+  const auto cover = [&](double x0, double x1, double y0, double y1) {
+    render.addPolygon({at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1)}, cv::Scalar(40, 150, 200));
+  };
+  cover(0.5, 3.4, -2, 9);     // three lines of corners, beyond which the left border is seen
+  cover(6.5, 9.5, -2, 0.55);  // half of the upper border beside them
+  cover(-2, 0.5, -2, 0.5);
+  const Frame frame = omr::makeFrame(render.picture());
+  CornerLooker looker(frame, 10000);
+  const LocalFrame seed{at(6, 3), at(7, 3) - at(6, 3), at(6, 4) - at(6, 3)};
+  Lattice lattice = omr::test::grow(looker, seed);
+  ASSERT_EQ(cv::Size(7, 6), lattice.box.size());
+  ASSERT_TRUE(omr::lookAtBorder(lattice, frame, omr::top, 1).ends());
+  const auto sides = settleExtent(lattice, looker);
+  ASSERT_EQ(cv::Size(10, 6), lattice.box.size());
+  EXPECT_EQ(omr::SideEvidence::border, sides[omr::left]);
+  EXPECT_EQ(omr::SideEvidence::rim, sides[omr::top]);
 }
 
 TEST(LatticeGaps, aClearLatticeGoesOnBehindAWideThing)

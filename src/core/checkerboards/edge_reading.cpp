@@ -183,18 +183,20 @@ bool readByEdges(const Frame& frame, Lattice& lattice, std::array<SideEvidence, 
     {
       dropLine(read, side);
     }
-    EdgeLine border = lookAtEdgeLine(frame, model, read, side, 1, ratio);
-    for (int hidden = 1; hidden <= MAX_HIDDEN_LINES && !border.ends(); ++hidden)
+    for (int hidden = 0; hidden <= MAX_HIDDEN_LINES; ++hidden)
     {
-      const EdgeLine beyond = lookAtEdgeLine(frame, model, read, side, 1 + hidden, ratio);
-      if (beyond.ends())
+      if (lookAtEdgeLine(frame, model, read, side, 1 + hidden, ratio).ends())
       {
         addLines(read, side, hidden);
         lookAtNodes(frame, model, ratio, read);
-        border = beyond;
+        break;
       }
     }
-    sides[side] = sideEvidence(border);
+  }
+  // Lines added or dropped on one side change how long the others are, so these are looked at once all are settled.
+  for (const Side side : SIDES)
+  {
+    sides[side] = sideEvidence(lookAtEdgeLine(frame, model, read, side, 1, ratio));
   }
   lattice = read;
   return true;

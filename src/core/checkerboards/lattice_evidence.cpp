@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -53,7 +54,7 @@ Evidence latticeEvidence(const Lattice& lattice)
   }
   evidence.fill = static_cast<float>(lattice.count()) / static_cast<float>(std::max(1, lattice.box.area()));
   evidence.correlation = correlations.empty() ? 0 : median(std::move(correlations));
-  evidence.unevenness = unevenness.empty() ? 0 : median(std::move(unevenness));
+  evidence.unevenness = unevenness.empty() ? std::numeric_limits<float>::infinity() : median(std::move(unevenness));
   return evidence;
 }
 

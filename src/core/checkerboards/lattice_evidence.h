@@ -10,7 +10,8 @@ struct Evidence
 {
   float fill = 0;         ///< found corners per node of the box
   float correlation = 0;  ///< median of the corners
-  float unevenness = 0;   ///< median third difference of the positions [squares], see latticeEvidence()
+  float unevenness = 0;   ///< median third difference of the positions [squares], see latticeEvidence();
+                          ///< infinite where no corners lie so that one is known
 
   /** Sum of the three shortfalls, each in units of what boards hardly reach; see MAX_DOUBT. */
   float doubt() const;

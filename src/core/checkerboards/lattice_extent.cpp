@@ -217,24 +217,26 @@ std::array<SideEvidence, 4> settleExtent(Lattice& lattice, CornerLooker& looker)
 {
   constexpr int MAX_HIDDEN_LINES = 3;
   trim(lattice, looker);
-  std::array<BorderLine, 4> borders;
+  std::array<int, 4> hidden_lines = {};
   for (const Side side : SIDES)
   {
-    borders[side] = lookAtBorder(lattice, looker.frame(), side, 1);
-    for (int hidden = 1; hidden <= MAX_HIDDEN_LINES && !borders[side].ends(); ++hidden)
+    for (int hidden = 0; hidden <= MAX_HIDDEN_LINES; ++hidden)
     {
-      const BorderLine beyond = lookAtBorder(lattice, looker.frame(), side, 1 + hidden);
-      if (beyond.ends())
+      if (lookAtBorder(lattice, looker.frame(), side, 1 + hidden).ends())
       {
         addLines(lattice, side, hidden);
-        borders[side] = beyond;
+        hidden_lines[side] = hidden;
+        break;
       }
     }
   }
+  // Lines added on one side make the others longer, so these are looked at once all are there.
   std::array<SideEvidence, 4> evidence;
   for (const Side side : SIDES)
   {
-    evidence[side] = sideEvidence(lattice, looker.frame(), side, borders[side]);
+    const BorderLine border =
+        lookAtLine(lattice, looker.frame(), side, lineIndex(lattice, side, 1), BORDER_WINDOW + 1 + hidden_lines[side]);
+    evidence[side] = sideEvidence(lattice, looker.frame(), side, border);
   }
   return evidence;
 }
