@@ -8,6 +8,8 @@
 #include <cstring>
 #include <opencv2/core.hpp>
 
+#include "local_frame.h"
+
 namespace omr
 {
 /** Where samples of a level lie [px]. */
@@ -21,8 +23,8 @@ struct SamplePlaces
 template <std::size_t SIZE>
 inline void sampleGreys(const cv::Mat& grey, const SamplePlaces<SIZE>& places, std::array<float, SIZE>& values)
 {
-  const float last_x = static_cast<float>(grey.cols) - 1.001F;
-  const float last_y = static_cast<float>(grey.rows) - 1.001F;
+  const float last_x = lastPlace(grey.cols);
+  const float last_y = lastPlace(grey.rows);
   const auto step = static_cast<int>(grey.step[0]);
   std::array<int, SIZE> offset;
   SamplePlaces<SIZE> share;
