@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "outdoor_omr/reference_fill.h"
 
 namespace omr::test
@@ -35,6 +37,16 @@ void expectFound(const TargetScene& scene, const std::string& colors, double tol
   EXPECT_EQ(colors, targets[0].colors);
   EXPECT_EQ(colors.size(), targets[0].rings.size());
   EXPECT_NEAR(0, cv::norm(cv::Point2d(targets[0].center) - projectedCenter(scene)), tolerance);
+}
+
+void expectLetters(const std::string& colors, int most_unknown, const std::string& found)
+{
+  ASSERT_EQ(colors.size(), found.size()) << found;
+  EXPECT_LE(std::count(found.begin(), found.end(), '?'), most_unknown) << found;
+  for (std::size_t k = 0; k < colors.size(); ++k)
+  {
+    EXPECT_TRUE(found[k] == '?' || found[k] == colors[k]) << found << " instead of " << colors;
+  }
 }
 
 }  // namespace omr::test

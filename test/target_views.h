@@ -18,6 +18,9 @@ std::vector<Target> findTargetsIn(const cv::Mat& image, const Settings& settings
 /** Expects one target with these colours, its centre right to within the tolerance [px]. */
 void expectFound(const TargetScene& scene, const std::string& colors, double tolerance = .1);
 
+/** Expects the letters of a target that was found, of which so many at most may be '?'. */
+void expectLetters(const std::string& colors, int most_unknown, const std::string& found);
+
 }  // namespace omr::test
 
 #endif

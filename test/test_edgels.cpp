@@ -68,12 +68,17 @@ TEST(Edgels, tilesJoinWithoutGapsOrDoubles)
 TEST(Edgels, onlyThoseInTheBox)
 {
   cv::Mat image(100, 100, CV_8UC3, cv::Scalar::all(30));
+  image.colRange(10, 50).setTo(cv::Scalar::all(120));
   image.colRange(50, 100).setTo(cv::Scalar::all(200));
   EdgelMap map(image);
+  int count = 0;
   map.visit(20, 30, 80, 40, [&](const Edgel& edgel) {
+    EXPECT_NEAR(49.5, edgel.x, .1);
     EXPECT_GE(edgel.y, 30);
     EXPECT_LE(edgel.y, 40);
+    ++count;
   });
+  EXPECT_EQ(11, count);
   map.visit(-50, -50, -10, -10, [](const Edgel&) { FAIL(); });
 }
 

@@ -127,7 +127,9 @@ TEST(RingBoundaries, whiteOnWhiteIsNone)
 
 TEST(RingBoundaries, mostDirectionsAgree)
 {
-  for (const Boundary& boundary : boundariesOf(TargetScene()))
+  const std::vector<Boundary> boundaries = boundariesOf(TargetScene());
+  ASSERT_EQ(5U, boundaries.size());
+  for (const Boundary& boundary : boundaries)
   {
     EXPECT_GT(boundary.agreement, .95);
     EXPECT_GT(boundary.coherence, .95);
@@ -205,7 +207,9 @@ TEST(RingBoundaries, edgesOfEitherSignSupportAChangeOfHue)
   {
     edgel.brighter_outside = edgel.brighter_outside != (edgel.position.x > family.center.x);
   }
-  for (const Boundary& boundary : omr::findBoundaries(profile, omr::AngularSupport(edgels, REACH), {}))
+  const std::vector<Boundary> boundaries = omr::findBoundaries(profile, omr::AngularSupport(edgels, REACH), {});
+  ASSERT_EQ(5U, boundaries.size());
+  for (const Boundary& boundary : boundaries)
   {
     EXPECT_GT(omr::share(boundary.supported), .9) << boundary.radius;
   }
