@@ -11,8 +11,6 @@ namespace omr
 {
 namespace
 {
-constexpr float MIN_SQUARE_HEIGHT = 1.5F;    // px; the pixel grid resolves no less
-constexpr float MIN_GAP = 3;                 // grey levels between the darkest light and the lightest dark quadrant
 constexpr float MIN_GAP_SHARE = 0.15F;       // of the contrast
 constexpr float MIN_CONTRAST_SHARE = 0.25F;  // of the neighbours' contrast; half of it is a shadow's edge
 /** The ring's verdict on a corner of four alternating squares. */
@@ -34,7 +32,7 @@ constexpr float CLEAR_CORRELATION = 0.97F;
 bool mayAccept(const CornerQuery& query, const Verdict& verdict)
 {
   return (query.sign == 0 || verdict.sign == query.sign) &&
-         verdict.gap > std::max(MIN_GAP, MIN_GAP_SHARE * verdict.contrast) &&
+         verdict.gap > std::max(RING_GAP, MIN_GAP_SHARE * verdict.contrast) &&
          verdict.contrast > MIN_CONTRAST_SHARE * query.contrast;
 }
 
@@ -46,7 +44,7 @@ bool accepts(const CornerQuery& query, const Verdict& verdict)
 /** Sign, contrast and gap of the ring. */
 Verdict judgeQuadrants(const Ring& ring)
 {
-  float median[QUADRANTS];
+  std::array<float, QUADRANTS> median;
   for (int q = 0; q < QUADRANTS; ++q)
   {
     median[q] = quadrantMedian(ring, q);
@@ -55,9 +53,7 @@ Verdict judgeQuadrants(const Ring& ring)
   const float difference = (median[0] + median[2] - median[1] - median[3]) / 2;
   verdict.sign = difference > 0 ? 1 : -1;
   verdict.contrast = std::abs(difference);
-  const float first = std::min(median[0], median[2]) - std::max(median[1], median[3]);
-  const float second = std::min(median[1], median[3]) - std::max(median[0], median[2]);
-  verdict.gap = verdict.sign > 0 ? first : second;
+  verdict.gap = quadrantGap(median, verdict.sign);
   return verdict;
 }
 
@@ -77,11 +73,8 @@ Verdict judgeRing(const PyramidView& view, const LocalFrame& frame, const Corner
 bool mayAlternate(const PyramidView& view, const LocalFrame& frame)
 {
   constexpr float RADIUS = 0.3F;
-  const float first = view.sample(frame.at(RADIUS, RADIUS));
-  const float second = view.sample(frame.at(-RADIUS, RADIUS));
-  const float third = view.sample(frame.at(-RADIUS, -RADIUS));
-  const float fourth = view.sample(frame.at(RADIUS, -RADIUS));
-  return std::min(first, third) > std::max(second, fourth) || std::min(second, fourth) > std::max(first, third);
+  const std::array<float, QUADRANTS> grey = sampleQuadrants(view, frame, RADIUS);
+  return quadrantGap(grey, 1) > 0 || quadrantGap(grey, -1) > 0;
 }
 
 /** Where the ring alternates around a prediction too far off for the saddle fit. */
@@ -125,7 +118,7 @@ RingSearch searchRing(const PyramidView& view, const LocalFrame& predicted, cons
       ++count;
     }
   }
-  return {*best > MIN_GAP, place(best - gaps.begin()), sum * (1 / count)};
+  return {*best > RING_GAP, place(best - gaps.begin()), sum * (1 / count)};
 }
 
 /** Follows a saddle point found on a coarse level down to the full image. */
@@ -152,7 +145,7 @@ CornerLook CornerLooker::look(const LocalFrame& predicted, const CornerQuery& qu
 {
   CornerLook result;
   const float height = squareHeight(predicted);
-  if (budget_ <= 0 || height < MIN_SQUARE_HEIGHT || !isInside(frame_.raw_grey, predicted.node, 2))
+  if (budget_ <= 0 || height < RING_SQUARE_HEIGHT || !isInside(frame_.raw_grey, predicted.node, 2))
   {
     return result;
   }

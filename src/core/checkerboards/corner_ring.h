@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORNER_RING_H
 #define OUTDOOR_OMR_CORNER_RING_H
 
+#include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
 
@@ -29,6 +30,24 @@ struct PyramidView
 constexpr int QUADRANTS = 4;
 constexpr std::array<float, QUADRANTS> QUADRANT_U = {1, -1, -1, 1};
 constexpr std::array<float, QUADRANTS> QUADRANT_V = {1, 1, -1, -1};
+
+/** By how much four quadrants alternate: the darkest of the light ones minus the lightest of the dark ones. @param sign
+ * +1: the first is light, -1: dark. */
+inline float quadrantGap(const std::array<float, QUADRANTS>& grey, int sign)
+{
+  return sign > 0 ? std::min(grey[0], grey[2]) - std::max(grey[1], grey[3])
+                  : std::min(grey[1], grey[3]) - std::max(grey[0], grey[2]);
+}
+
+/** One sample of each quadrant. @param offset along u and v [squares]. */
+inline std::array<float, QUADRANTS> sampleQuadrants(const PyramidView& view, const LocalFrame& frame, float offset)
+{
+  return {view.sample(frame.at(offset, offset)), view.sample(frame.at(-offset, offset)),
+          view.sample(frame.at(-offset, -offset)), view.sample(frame.at(offset, -offset))};
+}
+
+constexpr float RING_SQUARE_HEIGHT = 1.5F;  ///< px, the least; the pixel grid resolves no less
+constexpr float RING_GAP = 3;               ///< grey levels between light and dark quadrants, the least
 
 constexpr int QUADRANT_SAMPLES = 6;
 constexpr int RING_SAMPLES = QUADRANTS * QUADRANT_SAMPLES;

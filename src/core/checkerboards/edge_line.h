@@ -21,7 +21,7 @@ struct EdgeLine
    * a shadow's edge runs. Not where light squares end at dark ones: there the squares beyond are hidden. */
   bool isLast() const;
 
-  /** Squares lie outside the line as well, or corners on it. */
+  /** Squares lie outside the line as well. */
   bool goesOn() const;
 
   int places = 0;    ///< in the picture, the fewer of both kinds

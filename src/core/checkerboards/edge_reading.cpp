@@ -30,9 +30,10 @@ void clear(Lattice& lattice)
 /** Quick look at a few corners: lattices on clutter end here. */
 bool isPromising(const Frame& frame, const LatticeModel& model, const Lattice& lattice)
 {
-  constexpr int LOOKS = 8;
-  constexpr int MIN_ALIKE = 3;
-  const int every = std::max(1, lattice.count() / LOOKS);
+  constexpr int LEAST_LOOKS = 8;   // at corners spread evenly; up to 15 as the division is rounded down
+  constexpr int MAX_UNLIKE = 5;    // before the last look
+  constexpr int ONE_ALIKE_OF = 3;  // looks
+  const int every = std::max(1, lattice.count() / LEAST_LOOKS);
   int index = 0;
   int looks = 0;
   int alike = 0;
@@ -46,7 +47,7 @@ bool isPromising(const Frame& frame, const LatticeModel& model, const Lattice& l
         continue;
       }
       const LocalFrame predicted = model.frameAt(i, j);
-      if (!showsEdges(frame, predicted) || looks - alike > LOOKS - MIN_ALIKE)
+      if (!showsEdges(frame, predicted) || looks - alike > MAX_UNLIKE)
       {
         return false;
       }
@@ -55,7 +56,7 @@ bool isPromising(const Frame& frame, const LatticeModel& model, const Lattice& l
       alike += lookAtEdges(view, predicted, lattice.sign(i, j)).alike ? 1 : 0;
     }
   }
-  return MIN_ALIKE * alike >= looks;
+  return ONE_ALIKE_OF * alike >= looks;
 }
 
 /**

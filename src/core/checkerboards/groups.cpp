@@ -163,11 +163,10 @@ LocalFrame frameBetween(const Square& a, const Square& b, cv::Point2f& diagonal,
 bool alternates(const Frame& frame, const LocalFrame& corner, const cv::Point2f& diagonal, const cv::Point2f& other)
 {
   const PyramidView view(frame, 0.7F * length(diagonal));
-  const float a = view.sample(corner.node + 0.3F * diagonal);
-  const float b = view.sample(corner.node - 0.3F * diagonal);
-  const float c = view.sample(corner.node + 0.25F * other);
-  const float d = view.sample(corner.node - 0.25F * other);
-  return std::min(a, b) - std::max(c, d) >= MIN_GAP || std::min(c, d) - std::max(a, b) >= MIN_GAP;
+  const std::array<float, QUADRANTS> grey = {
+      view.sample(corner.node + 0.3F * diagonal), view.sample(corner.node + 0.25F * other),
+      view.sample(corner.node - 0.3F * diagonal), view.sample(corner.node - 0.25F * other)};
+  return quadrantGap(grey, 1) >= MIN_GAP || quadrantGap(grey, -1) >= MIN_GAP;
 }
 }  // namespace
 

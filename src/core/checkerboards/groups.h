@@ -14,7 +14,8 @@ struct Seed
 {
   LocalFrame frame;
   bool is_saddle_point = false;  ///< the node is a saddle point of the image, no estimate of one
-  int rank = 0;                  ///< the more, the likelier: neighbours alike that the two regions have
+  int rank = 0;                  ///< the more, the likelier: of regions the neighbours alike that both have, of
+                                 ///< saddle points the grey levels by which the squares around alternate
 };
 
 /**

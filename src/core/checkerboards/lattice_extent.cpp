@@ -33,12 +33,7 @@ bool isBetweenSquares(const Lattice& lattice, const Frame& image, int row, int c
   const LatticeNode& node = lattice.at(row, col);
   const PyramidView view(image, squareHeight(frame));
   frame.node = node.position;
-  const float first = view.sample(frame.at(0.5F, 0.5F));
-  const float second = view.sample(frame.at(-0.5F, 0.5F));
-  const float third = view.sample(frame.at(-0.5F, -0.5F));
-  const float fourth = view.sample(frame.at(0.5F, -0.5F));
-  const float gap = lattice.sign(row, col) > 0 ? std::min(first, third) - std::max(second, fourth)
-                                               : std::min(second, fourth) - std::max(first, third);
+  const float gap = quadrantGap(sampleQuadrants(view, frame, 0.5F), lattice.sign(row, col));
   return gap >= MIN_CONTRAST_SHARE * node.contrast;
 }
 

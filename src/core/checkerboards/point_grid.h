@@ -43,7 +43,8 @@ class PointGrid
     cv::Point offset;
   };
 
-  /** The nearest neighbours, nearest first; at most MAX_NEIGHBOURS. */
+  /** The nearest of the points in the fewest cells around that hold enough, nearest first; at most MAX_NEIGHBOURS. A
+   * point beyond those cells may be nearer than the last ones. */
   void neighbours(const cv::Point& center, std::vector<Neighbour>& found) const
   {
     for (int reach = 1; reach <= MAX_REACH; ++reach)

@@ -10,9 +10,6 @@ namespace omr
 {
 namespace
 {
-constexpr float MIN_SQUARE_HEIGHT = 1.5F;  // px; the pixel grid resolves no less
-constexpr float MIN_GAP = 3;               // grey levels between light and dark squares
-
 constexpr float MAX_COLOR_DIFFERENCE = 0.08F;  // of a channel's share in the sum of the three
 
 /** Shares of blue, green and red in their sum, at the nearest pixel, which lies in the image. */
@@ -113,7 +110,7 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   constexpr float MIN_SHARE = 0.4F;   // of the contrast
   constexpr float MAX_SPREAD = 0.4F;  // of the light squares, in contrasts
   const float height = squareHeight(place.predicted);
-  if (height < MIN_SQUARE_HEIGHT || !isInside(frame.raw_grey, place.predicted.node, 2))
+  if (height < RING_SQUARE_HEIGHT || !isInside(frame.raw_grey, place.predicted.node, 2))
   {
     return RimLook::unclear;
   }
@@ -131,7 +128,7 @@ RimLook lookAtRim(const Frame& frame, const RimPlace& place, float contrast)
   const float beside_a = median[(dark + 1) % QUADRANTS];
   const float opposite = median[(dark + 2) % QUADRANTS];
   const float beside_b = median[(dark + 3) % QUADRANTS];
-  const float least_gap = std::max(MIN_GAP, MIN_SHARE * contrast);
+  const float least_gap = std::max(RING_GAP, MIN_SHARE * contrast);
   std::array<float, QUADRANTS> pattern = {1, 1, 1, 1};
   pattern[dark] = -1;
   const float light = std::min({beside_a, beside_b, opposite});
@@ -177,7 +174,7 @@ bool marginFollows(const Frame& frame, const RimPlace& place)
     const cv::Point2f offset = -0.5F * axes.along + depth * axes.across;
     return place.predicted.at(offset.x, offset.y);
   };
-  if (height < MIN_SQUARE_HEIGHT || !isInside(frame.raw_grey, at(-0.5F), 2) || !isInside(frame.raw_grey, at(1.5F), 2))
+  if (height < RING_SQUARE_HEIGHT || !isInside(frame.raw_grey, at(-0.5F), 2) || !isInside(frame.raw_grey, at(1.5F), 2))
   {
     return false;
   }

@@ -8,7 +8,8 @@ namespace omr
 namespace
 {
 constexpr int MAX_FAILURES = 2;
-}
+constexpr float RADIUS = 0.15F;  // cells per pixel of the square's height: 0.3 squares, as cells are 2 px wide
+}  // namespace
 
 SearchMap::SearchMap(const cv::Size& image)
     : failures_(cv::Mat::zeros(image.height / CELL + 1, image.width / CELL + 1, CV_8UC1))
@@ -23,7 +24,7 @@ bool SearchMap::isOpen(const cv::Point2f& point) const
 
 void SearchMap::addFailure(const cv::Point2f& point, float square_height, int failures)
 {
-  const float radius = std::max(0.5F, 0.15F * square_height);  // cells
+  const float radius = std::max(0.5F, RADIUS * square_height);  // cells
   const cv::Point2f center = point * (1.F / CELL);
   const cv::Rect around(cv::Point(cvFloor(center.x - radius), cvFloor(center.y - radius)),
                         cv::Point(cvFloor(center.x + radius) + 1, cvFloor(center.y + radius) + 1));
