@@ -31,9 +31,7 @@ std::string letters(const omr::RingProfile& profile, const std::vector<double>& 
   {
     colors.emplace_back(omr::linearLight(color[2]), omr::linearLight(color[1]), omr::linearLight(color[0]));
   }
-  const omr::LinearColor around = colors.back();
-  colors.pop_back();
-  return omr::readColorKey(colors, around);
+  return omr::readColorKey({[&] { return colors; }}, std::vector<bool>(radii.size(), true), true);
 }
 
 /** Four grey rings behind a blur of 1 px, of which the third and the fourth differ. @param step [grey levels] */
