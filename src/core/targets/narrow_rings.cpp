@@ -24,7 +24,7 @@ constexpr double LETTER_MARGIN = 3;
 constexpr double COUNT_MARGIN = 3;
 // Of a ring: with 8 of 300 targets 6 less are read. A letter of two circles and a map's sign of three have 12 and more.
 constexpr double MOST_REST = 10;
-// What the ink of a single ring leaves that any colour in its place would not: of 2600 letters in 800 drawn scenes 13
+// What the ink of a single ring leaves that any colour in its place would not: of 2600 letters in 800 drawn scenes 7
 // that are right leave more, and 4 of the 7 that are wrong.
 constexpr double MOST_RING_REST = 15;
 // Haze explains what white rings between the others would, and a drawn screw on beige with a rest of 6 for each of four
