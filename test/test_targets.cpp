@@ -331,22 +331,18 @@ TEST(Targets, survivesTinyImages)
   EXPECT_TRUE(omr::findTargets(frame, {}, {}, Settings()).empty());
 }
 
-TEST(Targets, haveNineRingsAtMost)
+TEST(Targets, ofMoreThanNineRingsAreReadAsTheyAre)
 {
   TargetScene scene;
-  const std::string colors = "PWPWPWPWPWP";
-  for (const std::size_t count : {9U, 11U})
+  scene.colors = "PWPWPWPWPWP";
+  scene.radii.clear();
+  for (std::size_t k = 1; k <= scene.colors.size(); ++k)
   {
-    scene.colors = colors.substr(0, count);
-    scene.radii.clear();
-    for (std::size_t k = 1; k <= count; ++k)
-    {
-      scene.radii.push_back(9. * static_cast<double>(k));
-    }
-    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
-    ASSERT_EQ(count == 9 ? 1U : 0U, targets.size()) << count;
-    EXPECT_TRUE(targets.empty() || targets[0].colors == scene.colors) << targets[0].colors;
+    scene.radii.push_back(9. * static_cast<double>(k));
   }
+  const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+  ASSERT_EQ(1U, targets.size());
+  EXPECT_EQ(scene.colors, targets[0].colors);
 }
 
 int main(int argc, char** argv)

@@ -162,8 +162,8 @@ float coherence(const Lattice& lattice, const LatticeModel& model)
 /**
  * Share of the surface in the corners' places: what neighbours have in common is the sheet's shape. Of flat boards
  * (doe, degrade) nine of ten are below 0.01, of bent ones half above 0.29. RMS of the corners, with 0.8 for all and so:
- * curved 0.051 -> 0.037 px, blender 0.101 -> 0.093, real 0.386 -> 0.364, occlusion 0.0494 -> 0.0497, doe and degrade as
- * before. With 0.1 and 0.3 as limits real has 0.345, occlusion 0.0506.
+ * curved 0.051 -> 0.037 px, blender 0.101 -> 0.093, real 0.505 -> 0.490, occlusion 0.0494 -> 0.0497, doe and degrade as
+ * before. With 0.1 and 0.3 as limits occlusion has 0.0506.
  */
 float surfaceShare(float coherence)
 {

@@ -17,6 +17,7 @@ namespace
 // Of 300 drawn targets with rings of 2.5 to 5.2 px in photographs, blurred, mosaiced and coded as JPEG, 194 instead of
 // 179 are found, of them 187 instead of 155 with the right number of rings; of 600 others 454 instead of 406, 433
 // instead of 363.
+constexpr std::size_t MOST_NARROW_RINGS = 9;
 constexpr double RING_COST = 6;    // of a ring, in the unit of the rest
 constexpr double WIDTH_COST = 10;  // of unequal widths
 constexpr double NARROWEST = 1.9;  // ring [px]
@@ -41,7 +42,7 @@ using Radii = std::vector<double>;
 std::vector<Radii> equalRings(const Radii& found, double narrowest)
 {
   const double outermost = found.back();
-  const std::size_t most = std::min(found.size() + MOST_ADDED, MOST_TARGET_RINGS);
+  const std::size_t most = std::min(found.size() + MOST_ADDED, MOST_NARROW_RINGS);
   std::vector<Radii> sets;
   for (std::size_t count = std::max(LEAST_RINGS, found.size() - 1);
        count <= most && outermost > static_cast<double>(count) * narrowest; ++count)
@@ -65,7 +66,7 @@ std::vector<Radii> amended(const Radii& radii, double narrowest)
     const auto place = static_cast<std::ptrdiff_t>(k);
     const double inner = k > 0 ? radii[k - 1] : 0;
     const double width = radii[k] - inner;
-    if (width > 2 * narrowest && radii.size() < MOST_TARGET_RINGS)
+    if (width > 2 * narrowest && radii.size() < MOST_NARROW_RINGS)
     {
       for (const double split : SPLITS)
       {
@@ -119,7 +120,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
   const std::vector<Radii> others = amended(found, narrowest);
   sets.insert(sets.end(), others.begin(), others.end());
 
-  std::array<double, MOST_TARGET_RINGS + 2> least_of_count;
+  std::array<double, MOST_NARROW_RINGS + 2> least_of_count;
   least_of_count.fill(std::numeric_limits<double>::infinity());
   InkFit::Result best;
   double least = std::numeric_limits<double>::infinity();
@@ -127,7 +128,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
   {
     InkFit::Result result = fit.explain(radii);
     const double cost = costOf(result.rest, radii);
-    double& of_count = least_of_count[std::min(radii.size(), MOST_TARGET_RINGS + 1)];
+    double& of_count = least_of_count[std::min(radii.size(), MOST_NARROW_RINGS + 1)];
     of_count = std::min(of_count, cost);
     if (cost < least)
     {
@@ -136,7 +137,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
       rings.radii = radii;
     }
   }
-  least_of_count[std::min(rings.radii.size(), MOST_TARGET_RINGS + 1)] = std::numeric_limits<double>::infinity();
+  least_of_count[std::min(rings.radii.size(), MOST_NARROW_RINGS + 1)] = std::numeric_limits<double>::infinity();
   double margin = *std::min_element(least_of_count.begin(), least_of_count.end()) - least;
   bool is_veiled = false;
   if (costOf(0, found) + HAZE_COST < least)  // else haze explains no more, whatever it leaves

@@ -9,8 +9,6 @@
 
 namespace omr
 {
-constexpr std::size_t MOST_TARGET_RINGS = 9;
-
 /** A circle on which the colour steps by the same amount in (nearly) all directions. */
 struct Boundary
 {

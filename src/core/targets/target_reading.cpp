@@ -48,8 +48,7 @@ bool isReadable(const Target& target, const RingCandidate& candidate, int min_ri
   const double clearness = candidate.evidence * candidate.visible;
   const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
                       RELATIVE_RMS * candidate.rings.radii.back();
-  if (counted < min_rings || target.colors.size() > MOST_TARGET_RINGS ||
-      (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
+  if (counted < min_rings || (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
   {
     return false;
   }
