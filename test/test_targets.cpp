@@ -282,7 +282,10 @@ TEST(Targets, areThoseBesideTheBoardsThatThereAreWhicheverWereExpected)
   omr::Checkerboard everywhere;
   const auto right = static_cast<float>(image.cols);
   const auto bottom = static_cast<float>(image.rows);
+  everywhere.rows = everywhere.cols = 2;
   everywhere.corners = {cv::Point2f(0, 0), cv::Point2f(right, 0), cv::Point2f(right, bottom), cv::Point2f(0, bottom)};
+  everywhere.inner_corners = {cv::Point2f(right / 2, bottom / 2)};
+  everywhere.inner_corners_seen = {true};
   const std::vector<std::vector<omr::Checkerboard>> both = {{}, {everywhere}};
   for (const auto& expected : both)
   {

@@ -107,6 +107,37 @@ TEST(HiddenTargets, theSidesOfASquareAreNoRing)
   }
 }
 
+TEST(HiddenTargets, aSquareSheetOnAPlateIsNoRing)
+{
+  // Circles touch the sheet's sides, and farther out the plate's.
+  TargetScene scene;
+  scene.colors = "BPG";
+  scene.radii = {11, 21.6, 32.4};
+  scene.ground = {.02, .35, .6};
+  scene.homography = tiltedView({240, 180}, .8, .7, 1, 900);
+  for (const double sheet : {40., 42., 44.})
+  {
+    for (const double plate : {sheet + 9, sheet + 12})
+    {
+      scene.sheet_half_side = sheet;
+      cv::Mat image = renderTarget(scene);
+      std::vector<cv::Point> outline;
+      for (const cv::Vec3d& corner :
+           {cv::Vec3d(-plate, -plate, 1), {plate, -plate, 1}, {plate, plate, 1}, {-plate, plate, 1}})
+      {
+        const cv::Vec3d place = scene.homography * corner;
+        outline.emplace_back(cvRound(place[0] / place[2]), cvRound(place[1] / place[2]));
+      }
+      cv::Mat beside(image.size(), CV_8UC1, cv::Scalar(255));
+      cv::fillConvexPoly(beside, outline, cv::Scalar(0));
+      image.setTo(cv::Scalar::all(50), beside);
+      const std::vector<Target> targets = findTargetsIn(image);
+      ASSERT_EQ(1U, targets.size()) << sheet << " " << plate;
+      EXPECT_EQ("BPG", targets[0].colors) << sheet << " " << plate;
+    }
+  }
+}
+
 TEST(HiddenTargets, archesWithBarsAreNone)
 {
   TargetScene scene;

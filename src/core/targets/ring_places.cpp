@@ -1,6 +1,7 @@
 #include "ring_places.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -10,6 +11,7 @@ namespace
 {
 constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
 constexpr double UNDISPUTED_EVIDENCE = .9;  // of a half-hidden one
+constexpr double NEAR = 1.1;                // squares: on a board that shows there is a corner
 
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 {
@@ -22,6 +24,18 @@ bool isUndisputed(const RingCandidate& candidate)
          (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE);
 }
 
+/** Whether a corner of the board is seen beside a point. @param square side of a square [px] */
+bool showsNear(const Checkerboard& board, const cv::Point2d& point, double square)
+{
+  for (std::size_t i = 0; i < board.inner_corners.size(); ++i)
+  {
+    if (board.inner_corners_seen[i] && cv::norm(cv::Point2d(board.inner_corners[i]) - point) < NEAR * square)
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }  // namespace
 
 double score(const RingCandidate& candidate)
@@ -32,7 +46,9 @@ double score(const RingCandidate& candidate)
 bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)
 {
   return std::any_of(boards.begin(), boards.end(), [&](const Checkerboard& board) {
-    return cv::pointPolygonTest(std::vector<cv::Point2f>(board.corners.begin(), board.corners.end()), point, false) > 0;
+    const std::vector<cv::Point2f> outline(board.corners.begin(), board.corners.end());
+    return cv::pointPolygonTest(outline, point, false) > 0 &&
+           showsNear(board, point, std::sqrt(cv::contourArea(outline) / (board.rows * board.cols)));
   });
 }
 

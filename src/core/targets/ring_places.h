@@ -8,6 +8,7 @@
 
 namespace omr
 {
+/** Whether a board shows at the point: not where something lies on it, which may be a target. */
 bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards);
 
 /** Whether a candidate that no other seed will better contains the point. */
