@@ -25,7 +25,7 @@ std::size_t sharedLooks(const cv::Size& image_size, double share);
  *
  * @param bgr       H x W, CV_8UC3; the map's image.
  * @param seeds     what is found and grown already; the rest is done here.
- * @param boards    what lies on them is no target.
+ * @param boards    what lies on them, where they show, is no target.
  * @param min_rings of a target.
  * @param is_vain   if given and set meanwhile, the search ends soon; what it found is of no use then.
  * @return          what isTarget(), the best of each place.

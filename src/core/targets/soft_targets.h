@@ -14,7 +14,7 @@ namespace omr
  * Large targets that are so blurred or faint that only a reduced image shows their edges.
  *
  * @param bgr       H x W, CV_8UC3.
- * @param boards    what lies on them is no target.
+ * @param boards    what lies on them, where they show, is no target.
  * @param min_rings of a target.
  * @param is_vain   if given and set, there is nothing to be found.
  * @return          those of which every letter is read.

@@ -17,7 +17,7 @@ namespace omr
  *
  * @param frame    the image.
  * @param regions  its regions.
- * @param boards   its checkerboards: what lies on them is no target.
+ * @param boards   its checkerboards: what lies on them, where they show, is no target.
  * @param settings the tunables of group "target".
  */
 std::vector<Target> findTargets(const Frame& frame, const RegionMap& regions, const std::vector<Checkerboard>& boards,
