@@ -160,7 +160,10 @@ TEST(RingSearch, seedsGrownAheadOnABoardAreNoTargets)
   omr::EdgelMap map(image);
   omr::growConcentric(map, image, 3, seeds);
   omr::Checkerboard board;
+  board.rows = board.cols = 2;
   board.corners = {cv::Point2f(0, 0), cv::Point2f(480, 0), cv::Point2f(480, 360), cv::Point2f(0, 360)};
+  board.inner_corners = {cv::Point2f(240, 180)};
+  board.inner_corners_seen = {true};
   EXPECT_TRUE(omr::findRingCandidates(map, image, regions, std::move(seeds), {board}, 3).empty());
 }
 
