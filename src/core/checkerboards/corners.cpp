@@ -130,33 +130,40 @@ bool isThere(const cv::Mat& grey, const LocalFrame& corner, float contrast)
 float coherence(const Lattice& lattice, const LatticeModel& model)
 {
   constexpr int MIN_PAIRS = 12;
-  const auto residual = [&](int i, int j) {
-    return std::sqrt(lattice.at(i, j).weight) * (lattice.at(i, j).position - model.at(i, j));
-  };
-  const auto counts = [&](int i, int j) {
-    return lattice.found(i, j) && !model.isOutlier(length(lattice.at(i, j).position - model.at(i, j)));
-  };
+  const cv::Rect& box = lattice.box;
+  std::vector<cv::Point2f> residuals(box.area());
+  std::vector<bool> counts(box.area());
+  for (int k = 0; k < box.area(); ++k)
+  {
+    const int row = box.y + k / box.width;
+    const int col = box.x + k % box.width;
+    const cv::Point2f residual = lattice.at(row, col).position - model.at(row, col);
+    residuals[k] = std::sqrt(lattice.at(row, col).weight) * residual;
+    counts[k] = lattice.found(row, col) && !model.isOutlier(length(residual));
+  }
   double product = 0;
   double square = 0;
   int pairs = 0;
-  for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
-  {
-    for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
+  const auto add = [&](int k, int beside) {
+    if (counts[k] && counts[beside])
     {
-      for (const cv::Point step : {cv::Point(1, 0), cv::Point(0, 1)})
-      {
-        if (counts(i, j) && counts(i + step.y, j + step.x))
-        {
-          const cv::Point2f a = residual(i, j);
-          const cv::Point2f b = residual(i + step.y, j + step.x);
-          product += a.dot(b);
-          square += (a.dot(a) + b.dot(b)) / 2;
-          ++pairs;
-        }
-      }
+      product += residuals[k].dot(residuals[beside]);
+      square += (residuals[k].dot(residuals[k]) + residuals[beside].dot(residuals[beside])) / 2;
+      ++pairs;
+    }
+  };
+  for (int k = 0; k < box.area(); ++k)
+  {
+    if (k % box.width + 1 < box.width)
+    {
+      add(k, k + 1);
+    }
+    if (k + box.width < box.area())
+    {
+      add(k, k + box.width);
     }
   }
-  return pairs < MIN_PAIRS ? 0.F : static_cast<float>(std::max(0., product / square));
+  return pairs < MIN_PAIRS || product <= 0 ? 0.F : static_cast<float>(product / square);
 }
 
 /**

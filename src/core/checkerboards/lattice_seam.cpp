@@ -18,6 +18,9 @@ namespace
 constexpr int MIN_LINES = 4;  // of inner corners; the smallest board has 5 x 7 squares
 constexpr int MAX_LINES = 6;  // on each side of a seam that are looked at: within them a surface's bend is cubic
 
+/** How corners beside one plane change from a line to another [squares]; none where too few tell. */
+using Change = std::optional<cv::Point2d>;
+
 /** How corners lie beside one plane. */
 class Offsets
 {
@@ -44,9 +47,8 @@ class Offsets
     return fits_;
   }
 
-  /** How the offset changes from a line to another, the median over their corners [squares]. @return false where too
-   * few tell. */
-  bool change(Side side, int from, int to, cv::Point2d& change) const
+  /** The median over the corners of both lines. */
+  Change change(Side side, int from, int to) const
   {
     constexpr int MIN_PAIRS = 3;
     const int start = lineStart(lattice_, side);
@@ -65,10 +67,20 @@ class Offsets
     }
     if (static_cast<int>(along.size()) < MIN_PAIRS)
     {
-      return false;
+      return std::nullopt;
     }
-    change = {median(std::move(along)), median(std::move(across))};
-    return true;
+    return cv::Point2d(median(std::move(along)), median(std::move(across)));
+  }
+
+  /** From each line to the next. */
+  std::vector<Change> changes(Side side, int first, int last) const
+  {
+    std::vector<Change> result;
+    for (int line = first; line < last; ++line)
+    {
+      result.push_back(change(side, line, line + 1));
+    }
+    return result;
   }
 
  private:
@@ -86,16 +98,16 @@ class Offsets
 class Steps
 {
  public:
-  /** @param first, last lines of the lattice. */
-  Steps(const Offsets& offsets, Side side, int first, int last, int seam)
+  /** @param changes from each line of the lattice to the next. @param seam index of its line. */
+  Steps(const std::vector<Change>& changes, int seam)
   {
     PointFit<TERMS> fit;
-    for (int line = std::max(first, seam - MAX_LINES); line < std::min(last, seam + MAX_LINES); ++line)
+    const int end = std::min(static_cast<int>(changes.size()), seam + MAX_LINES);
+    for (int line = std::max(0, seam - MAX_LINES); line < end; ++line)
     {
-      Step step;
-      step.place = (line + 0.5 - seam) / MAX_LINES;
-      if (line != seam && line + 1 != seam && offsets.change(side, line, line + 1, step.change))
+      if (line != seam && line + 1 != seam && changes[line])
       {
+        const Step step = {(line + 0.5 - seam) / MAX_LINES, *changes[line]};
         fit.add({1, step.place, step.place * step.place}, step.change, 1);
         steps_.push_back(step);
         (line < seam ? before_ : behind_) += 1;
@@ -153,22 +165,27 @@ std::optional<Seam> findSeam(const Lattice& lattice)
     return {};
   }
   const Offsets offsets(lattice);
+  if (!offsets.fits())
+  {
+    return {};
+  }
   std::optional<Seam> seam;
   double largest = MIN_JUMP;
   for (const Side side : {top, left})
   {
     const int first = lineIndex(lattice, side, 0);
     const int last = lineIndex(lattice, side == top ? bottom : right, 0);
-    for (int line = first + MIN_LINES; offsets.fits() && line <= last - MIN_LINES; ++line)
+    const std::vector<Change> changes = offsets.changes(side, first, last);
+    for (int line = first + MIN_LINES; line <= last - MIN_LINES; ++line)
     {
-      const Steps steps(offsets, side, first, last, line);
-      cv::Point2d change;
-      if (!steps.fits() || !offsets.change(side, line - 1, line + 1, change))
+      const Steps steps(changes, line - first);
+      const Change change = steps.fits() ? offsets.change(side, line - 1, line + 1) : std::nullopt;
+      if (!change)
       {
         continue;
       }
       // By how much the distance of the two lines beside the seam is not that of two squares [squares].
-      const double jump = cv::norm(change - steps.acrossSeam());
+      const double jump = cv::norm(*change - steps.acrossSeam());
       if (jump > std::max(largest, MIN_NOISES * steps.noise()))
       {
         largest = jump;
