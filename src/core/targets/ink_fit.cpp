@@ -288,25 +288,14 @@ InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& r
   return {sequence.rest() + tintCost(lightOf(fromHue(around))), sequence.letters(), haze, {}};
 }
 
-/** The call's result for the sequence of the result's letters. */
-template <typename Call>
-std::vector<double> InkFit::ofEachRing(const std::vector<double>& radii, const Result& result, const Call& call) const
+InkFit::Doubts InkFit::doubts(const std::vector<double>& radii, const Result& result) const
 {
   const InkRestPart brightness(source_, 0, result.deviations[0], radii);
   const InkRestPart hue(source_, 1, result.deviations[1], radii);
   const Inks inks = inksUnder(fromHue(source_.samples.back()), result.haze);
   const InkRest rest(brightness, hue);
-  return call(Sequence(rest, inks, result.letters, source_.samples.back()));
-}
-
-std::vector<double> InkFit::margins(const std::vector<double>& radii, const Result& result) const
-{
-  return ofEachRing(radii, result, [](const Sequence& sequence) { return sequence.margins(); });
-}
-
-std::vector<double> InkFit::excesses(const std::vector<double>& radii, const Result& result) const
-{
-  return ofEachRing(radii, result, [](const Sequence& sequence) { return sequence.excesses(); });
+  const Sequence sequence(rest, inks, result.letters, source_.samples.back());
+  return {sequence.margins(), sequence.excesses()};
 }
 
 }  // namespace omr

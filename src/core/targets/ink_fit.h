@@ -41,18 +41,20 @@ class InkFit
   /** The same behind haze, which mixes each ink with white: of several hazes and blurs those that explain most. */
   Result explainInHaze(const std::vector<double>& radii) const;
 
-  /** Further rest if a ring had another letter, of each ring. @param result of the same radii. */
-  std::vector<double> margins(const std::vector<double>& radii, const Result& result) const;
+  /** How sure the letters are, of each ring. */
+  struct Doubts
+  {
+    std::vector<double> margins;   ///< further rest if the ring had another letter
+    std::vector<double> excesses;  ///< what its ink leaves that any colour in its place would not
+  };
 
-  /** What the ink of a ring leaves that any colour in its place would not, of each ring. @param result likewise. */
-  std::vector<double> excesses(const std::vector<double>& radii, const Result& result) const;
+  /** @param result of the same radii. */
+  Doubts doubts(const std::vector<double>& radii, const Result& result) const;
 
  private:
   class Sequence;
 
   Result explain(const InkRest& rest, const std::vector<double>& radii, double haze) const;
-  template <typename Call>
-  std::vector<double> ofEachRing(const std::vector<double>& radii, const Result& result, const Call& call) const;
   template <typename Call>
   void forEachBlur(const std::vector<double>& radii, const Call& call) const;
 

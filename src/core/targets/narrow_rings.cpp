@@ -7,7 +7,6 @@
 
 #include "ink_fit.h"
 #include "letter_costs.h"
-#include "ring_boundaries.h"
 #include "ring_samples.h"
 
 namespace omr
@@ -151,12 +150,12 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
       margin = std::numeric_limits<double>::infinity();
     }
   }
-  const std::vector<double> margins = fit.margins(rings.radii, best);
-  rings.rests = fit.excesses(rings.radii, best);
+  const InkFit::Doubts doubts = fit.doubts(rings.radii, best);
+  rings.rests = doubts.excesses;
   rings.letters.clear();
   for (std::size_t k = 0; k < rings.radii.size(); ++k)
   {
-    const bool is_told = margins[k] > LETTER_MARGIN && rings.rests[k] < MOST_RING_REST;
+    const bool is_told = doubts.margins[k] > LETTER_MARGIN && rings.rests[k] < MOST_RING_REST;
     rings.letters += is_told ? LETTER[best.letters[k]] : '?';
   }
   const bool is_read = !is_veiled || rings.letters.find('?') == std::string::npos;
