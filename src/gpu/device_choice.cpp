@@ -35,7 +35,10 @@ bool DeviceChoice::run(const std::function<void(DeviceFill&)>& work)
     try
     {
       work(*fill_);
-      describe();
+      if (is_new)
+      {
+        describe();
+      }
       return true;
     }
     catch (const cl::Error& error)
@@ -45,7 +48,7 @@ bool DeviceChoice::run(const std::function<void(DeviceFill&)>& work)
       note(state_.last_failure);
       fill_->abandon();
       fill_.reset();
-      current_ += is_new ? 1 : 0;
+      current_ += is_new ? 1 : 0;  // it had its second chance
       is_new = true;
     }
     catch (...)
