@@ -9,7 +9,6 @@ using omr::Settings;
 using omr::Target;
 using omr::test::expectFound;
 using omr::test::findTargetsIn;
-using omr::test::targetRegions;
 
 namespace
 {
@@ -246,82 +245,6 @@ TEST(Targets, noneInCirclesThatAreNotConcentric)
   cv::circle(image, {240, 180}, 90, cv::Scalar::all(230), cv::FILLED, cv::LINE_AA);
   cv::circle(image, {200, 200}, 40, cv::Scalar(30, 30, 200), cv::FILLED, cv::LINE_AA);
   EXPECT_TRUE(findTargetsIn(image).empty());
-}
-
-TEST(Targets, areTheSameWhetherItLooksAheadOrNot)
-{
-  TargetScene scene;
-  scene.homography = tiltedView({240, 180}, .5, .4, 1, 900);
-  scene.occluder = .3;
-  const cv::Mat image = renderTarget(scene);
-  const omr::RegionMap regions = targetRegions(image, Settings());
-  const std::vector<Target> plain = findTargetsIn(image);
-  ASSERT_EQ(1U, plain.size());
-  for (const bool with_regions : {false, true})
-  {
-    omr::TargetSearch search(image, Settings());
-    search.lookAtImage();
-    if (with_regions)
-    {
-      search.lookAtGrey(omr::makeFrame(image).raw_grey);
-      search.lookAtRegions(regions);
-    }
-    const std::vector<Target> ahead = search.finish(regions, {});
-    ASSERT_EQ(1U, ahead.size());
-    EXPECT_EQ(plain[0].colors, ahead[0].colors);
-    EXPECT_EQ(plain[0].center, ahead[0].center);
-  }
-}
-
-TEST(Targets, areThoseBesideTheBoardsThatThereAreWhicheverWereExpected)
-{
-  TargetScene scene;
-  scene.homography = tiltedView({240, 180}, .5, .4, 1, 900);
-  const cv::Mat image = renderTarget(scene);
-  const omr::RegionMap regions = targetRegions(image, Settings());
-  omr::Checkerboard everywhere;
-  const auto right = static_cast<float>(image.cols);
-  const auto bottom = static_cast<float>(image.rows);
-  everywhere.rows = everywhere.cols = 2;
-  everywhere.corners = {cv::Point2f(0, 0), cv::Point2f(right, 0), cv::Point2f(right, bottom), cv::Point2f(0, bottom)};
-  everywhere.inner_corners = {cv::Point2f(right / 2, bottom / 2)};
-  everywhere.inner_corners_seen = {true};
-  const std::vector<std::vector<omr::Checkerboard>> both = {{}, {everywhere}};
-  for (const auto& expected : both)
-  {
-    for (const auto& boards : both)
-    {
-      omr::TargetSearch search(image, Settings());
-      search.lookAtRegions(regions);
-      search.expect(expected);
-      search.lookAtRest(regions);
-      EXPECT_EQ(boards.empty() ? 1U : 0U, search.finish(regions, boards).size());
-    }
-  }
-}
-
-TEST(Targets, lookingInVainIsNoHarm)
-{
-  const cv::Mat image = renderTarget(TargetScene());
-  const omr::RegionMap regions = targetRegions(image, Settings());
-  omr::TargetSearch search(image, Settings());
-  search.expect({omr::Checkerboard()});
-  search.confirm({});
-  search.lookAtRest(regions);
-  EXPECT_EQ(1U, search.finish(regions, {}).size());
-}
-
-TEST(Targets, lookingAheadAtWhatIsNoColourImageDoesNothing)
-{
-  for (const cv::Mat& image : {cv::Mat(), cv::Mat(40, 40, CV_8UC1, cv::Scalar::all(9))})
-  {
-    omr::TargetSearch search(image, Settings());
-    search.lookAtImage();
-    search.lookAtGrey({});
-    search.lookAtRegions({});
-    search.lookAtRest({});
-    EXPECT_TRUE(search.finish({}, {}).empty());
-  }
 }
 
 TEST(Targets, survivesTinyImages)
