@@ -112,6 +112,22 @@ TEST(ColorKey, throughAThickHaze)
   EXPECT_EQ("RWGB", readColorKey(rings, .25 * WHITE + LinearColor::all(.6)));
 }
 
+TEST(ColorKey, whatIsAroundMayLieInAShadowThatTheRingsDoNot)
+{
+  // RBG in a haze, bars of shadow across its sheet, as seen in a path-traced scene.
+  EXPECT_EQ("RBG",
+            readColorKey({LinearColor(.471, .25, .253), LinearColor(.236, .271, .458), LinearColor(.227, .319, .263)},
+                         LinearColor(.499, .527, .543)));
+}
+
+TEST(ColorKey, aHazeHasNoTintWhereTheLightIsWarm)
+{
+  // BRGP in a drawn scene: behind a haze of the white's tint the red ring is as dark as black.
+  EXPECT_EQ("BRGP", readColorKey({LinearColor(.232, .236, .262), LinearColor(.308, .231, .23),
+                                  LinearColor(.238, .279, .236), LinearColor(.231, .228, .227)},
+                                 LinearColor(.354, .331, .314)));
+}
+
 TEST(ColorKey, theWayOfMeasuringThatOneKeyExplainsDecides)
 {
   // Gloss on half of the rings: what was measured in the brightest directions is white.

@@ -28,7 +28,7 @@ cv::Mat behindHaze(const cv::Mat& bgr, const cv::Vec3b& white, double share)
 }
 
 /** Rings of equal width as a camera sees them that halves the resolution of hues, and their profile. */
-omr::RingProfile profileOf(const std::string& colors, double width, double haze = 0)
+omr::RingProfile profileOf(const std::string& colors, double width, double haze = 0, double half_side = 35)
 {
   TargetScene scene;
   scene.size = {80, 80};
@@ -39,7 +39,8 @@ omr::RingProfile profileOf(const std::string& colors, double width, double haze 
   {
     scene.radii.push_back(static_cast<double>(k) * width);
   }
-  scene.sheet_half_side = 35;
+  scene.sheet_half_side = half_side;
+  scene.ground = {.1, .12, .1};
   std::vector<uchar> code;
   const cv::Mat clear = renderTarget(scene);
   const cv::Mat seen = behindHaze(clear, clear.at<cv::Vec3b>(10, 40), haze);
@@ -52,10 +53,11 @@ omr::RingProfile profileOf(const std::string& colors, double width, double haze 
 }
 
 /** The letters, or what speaks against them. */
-std::string read(const omr::RingProfile& profile, const std::vector<double>& found)
+std::string read(const omr::RingProfile& profile, const std::vector<double>& found,
+                 omr::Ground ground = omr::Ground::white)
 {
   omr::NarrowRings rings;
-  if (!omr::readNarrowRings(profile, found, 1, rings))
+  if (!omr::readNarrowRings(profile, found, 1, ground, rings))
   {
     return "not read";
   }
@@ -96,6 +98,18 @@ TEST(NarrowRings, palenessOfAllRingsIsHazeAndNoWhiteRingsBetweenThem)
       EXPECT_TRUE(letters == colors || letters == "not read") << letters << " instead of " << colors << ", " << haze;
     }
   }
+}
+
+TEST(NarrowRings, onDarkGroundARingIsWhite)
+{
+  for (const std::string colors : {"PRGPW", "GBRGW", "RWBRW"})
+  {
+    const omr::RingProfile profile = profileOf(colors, 3.5, 0, 0);
+    const std::vector<double> radii = {3.5, 7, 10.5, 14, 17.5};
+    EXPECT_EQ(colors, read(profile, radii, omr::Ground::any));
+    EXPECT_EQ("not read", read(profile, radii, omr::Ground::white));
+  }
+  EXPECT_EQ("PRGPW", read(profileOf("PRGPW", 3.5, 0, 0), {3.5, 7, 14, 17.5}, omr::Ground::any));
 }
 
 TEST(NarrowRings, whatNoInksExplainIsNotRead)

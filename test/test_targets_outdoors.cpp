@@ -114,7 +114,7 @@ TEST(Targets, smallEyesAreNone)
   {
     for (const bool is_red : {true, false})
     {
-      const cv::Scalar color = is_red ? cv::Scalar(60, 60, 150) : cv::Scalar(160, 90, 60);
+      const cv::Scalar color = is_red ? cv::Scalar(60, 60, 150) : cv::Scalar(60, 130, 150);
       cv::Mat image = eye.clone();
       const cv::Point middle(240 * 16 + offset, 180 * 16 + offset);
       cv::ellipse(image, middle, cv::Size(44, offset == 0 ? 28 : 36), 30, 0, 360, color, cv::FILLED, cv::LINE_AA,

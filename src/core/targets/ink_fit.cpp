@@ -17,6 +17,8 @@ namespace
 // Deviations of the blur, of brightness and of hue, which colour filter and JPEG widen [px].
 constexpr std::array<double, 4> BRIGHTNESS_BLUR = {1, .6, 1.4, 2};
 constexpr std::array<double, 4> HUE_BLUR = {2, 1.2, 2.8, .7};
+// Brightness of a ring that is taken for white instead of what is around, relative to that, at least.
+constexpr double BRIGHTER = 1.6;
 constexpr std::array<double, 4> HAZE = {.15, .3, .45, .6};  // share of white in each ink
 
 using Inks = std::array<cv::Vec3d, LETTERS>;
@@ -32,6 +34,14 @@ double greyLevelOf(double light)
 LinearColor lightOf(const cv::Vec3d& bgr)
 {
   return LinearColor(linearLight(bgr[2]), linearLight(bgr[1]), linearLight(bgr[0])) + LinearColor::all(DARKEST_LIGHT);
+}
+
+/** What is around, or the brightest ring where that is brighter: on dark ground it is the white one. */
+cv::Vec3d whiteOf(const std::vector<cv::Vec3d>& samples, Ground ground)
+{
+  const auto brightest = std::max_element(samples.begin(), samples.end(),
+                                          [](const cv::Vec3d& a, const cv::Vec3d& b) { return a[0] < b[0]; });
+  return ground == Ground::any && (*brightest)[0] > BRIGHTER * samples.back()[0] ? *brightest : samples.back();
 }
 
 Inks inksUnder(const cv::Vec3d& white_bgr, double haze)
@@ -205,8 +215,8 @@ class InkFit::Sequence
   std::vector<cv::Vec3d> slopes_;
 };
 
-InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale)
-    : source_{samples, step, scale}, deviations_(BRIGHTNESS_BLUR[0], HUE_BLUR[0])
+InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale, Ground ground)
+    : source_{samples, step, scale, whiteOf(samples, ground)}, deviations_(BRIGHTNESS_BLUR[0], HUE_BLUR[0])
 {
 }
 
@@ -282,17 +292,17 @@ InkFit::Result InkFit::explain(const InkRest& rest, const std::vector<double>& r
         source_.samples[std::min(source_.samples.size() - 1, static_cast<std::size_t>(middle / source_.step))]);
   }
   const cv::Vec3d& around = source_.samples.back();
-  const Inks inks = inksUnder(fromHue(around), haze);
+  const Inks inks = inksUnder(fromHue(source_.white), haze);
   Sequence sequence(rest, inks, nearestLetters(inks, middles), around);
   sequence.descend();
-  return {sequence.rest() + tintCost(lightOf(fromHue(around))), sequence.letters(), haze, {}};
+  return {sequence.rest() + tintCost(lightOf(fromHue(source_.white))), sequence.letters(), haze, {}};
 }
 
 InkFit::Doubts InkFit::doubts(const std::vector<double>& radii, const Result& result) const
 {
   const InkRestPart brightness(source_, 0, result.deviations[0], radii);
   const InkRestPart hue(source_, 1, result.deviations[1], radii);
-  const Inks inks = inksUnder(fromHue(source_.samples.back()), result.haze);
+  const Inks inks = inksUnder(fromHue(source_.white), result.haze);
   const InkRest rest(brightness, hue);
   const Sequence sequence(rest, inks, result.letters, source_.samples.back());
   return {sequence.margins(), sequence.excesses()};

@@ -11,8 +11,8 @@ namespace omr
 {
 /**
  * Explains samples along a ray by rings of the key's inks, seen through the blur of lens and camera. What is around
- * them is taken for white; an ink may be a little off. So of rings that the blur merges those are taken whose mixture
- * is seen.
+ * them is taken for white, or a ring that is brighter; an ink may be a little off. So of rings that the blur merges
+ * those are taken whose mixture is seen.
  */
 class InkFit
 {
@@ -30,7 +30,7 @@ class InkFit
    * @param step    between them [px].
    * @param scale   pixels of these a pixel of the camera, which tells how wide its blur is.
    */
-  InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale);
+  InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale, Ground ground);
 
   /** Takes the blur with which one of these is explained best; before it, the usual one counts. */
   void chooseBlur(const std::vector<std::vector<double>>& sets_of_radii);

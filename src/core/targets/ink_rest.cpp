@@ -34,7 +34,7 @@ InkRestPart::InkRestPart(const RaySamples& source, int part, double deviation, c
       values(i, c) = source.samples[i][part + c];
     }
   }
-  const double level = std::max(1., source.samples.back()[0]);  // [grey levels]
+  const double level = std::max(1., source.white[0]);  // [grey levels]
   const double weight =
       source.step / source.scale / (NOISE * NOISE * level * level);  // of a sample: a pixel counts once
   const double prior = 1 / (SPREAD * SPREAD * level * level);

@@ -6,12 +6,20 @@
 
 namespace omr
 {
+/** What the rings lie on. */
+enum class Ground
+{
+  white,
+  any,  ///< also darker than a ring, which is white then
+};
+
 /** Samples along a ray, from the centre outwards. */
 struct RaySamples
 {
   const std::vector<cv::Vec3d>& samples;  ///< brightness and hue, the last one of what is around
   double step;                            ///< between them [px]
   double scale;                           ///< pixels of these a pixel of the camera, which tells how wide its blur is
+  cv::Vec3d white;                        ///< brightness and hue of the place's white
 };
 
 /** What brightness (part 0) or hue (part 1) adds to the rest, as a function of the rings' inks c: c Q c - 2 l c + r. */

@@ -60,7 +60,7 @@ double tintCost(const LinearColor& color)
          squared(std::log(color[2] / color[1]) / TINT_DEVIATION);
 }
 
-Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze, double thickest_veil)
+Costs letterCosts(const LinearColor& ring, const LinearColor& white, const LinearColor& haze, double thickest_veil)
 {
   Costs costs;
   costs.fill(LARGEST_COST);
@@ -70,7 +70,7 @@ Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze
     for (int c = 0; c < 3; ++c)
     {
       // Without haze a black may be deeper than ink; through haze nothing looks darker than the haze itself.
-      reflectance[c] = std::max(haze > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze) / (1 - haze) - veil);
+      reflectance[c] = std::max(haze[c] > 0 ? 0 : DARKEST, (ring[c] / white[c] - haze[c]) / (1 - haze[c]) - veil);
     }
     const LinearColor seen = logarithms(reflectance);
     for (int letter = 0; letter < LETTERS; ++letter)
@@ -80,7 +80,7 @@ Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze
         costs[letter] = std::min(costs[letter], letterCost(seen, letter) + VEIL_COST * veil);
       }
     }
-    if (veil >= thickest_veil - haze || *std::min_element(costs.begin(), costs.end()) < UNVEILED)
+    if (veil >= thickest_veil || *std::min_element(costs.begin(), costs.end()) < UNVEILED)
     {
       break;
     }

@@ -29,9 +29,9 @@ double tintCost(const LinearColor& color);
  *
  * @param white         of its place.
  * @param haze          that lies on all rings, relative to the white.
- * @param thickest_veil of gloss on this ring alone, likewise, with the haze; 0: none.
+ * @param thickest_veil of gloss on this ring alone, likewise; 0 or less: none.
  */
-Costs letterCosts(const LinearColor& ring, const LinearColor& white, double haze, double thickest_veil);
+Costs letterCosts(const LinearColor& ring, const LinearColor& white, const LinearColor& haze, double thickest_veil);
 
 }  // namespace omr
 

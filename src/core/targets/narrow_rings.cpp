@@ -104,7 +104,8 @@ double costOf(double rest, const Radii& radii)
 }
 }  // namespace
 
-bool readNarrowRings(const RingProfile& profile, const std::vector<double>& found, double scale, NarrowRings& rings)
+bool readNarrowRings(const RingProfile& profile, const std::vector<double>& found, double scale, Ground ground,
+                     NarrowRings& rings)
 {
   const std::vector<cv::Vec3d> samples = medianSamples(profile, found);
   if (samples.empty())
@@ -112,7 +113,7 @@ bool readNarrowRings(const RingProfile& profile, const std::vector<double>& foun
     return false;
   }
   const double narrowest = NARROWEST * scale;
-  InkFit fit(samples, profile.step, scale);
+  InkFit fit(samples, profile.step, scale, ground);
   std::vector<Radii> sets = equalRings(found, narrowest);
   sets.push_back(found);
   fit.chooseBlur(sets);

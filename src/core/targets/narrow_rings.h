@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ink_rest.h"
 #include "ring_profile.h"
 
 namespace omr
@@ -22,10 +23,12 @@ struct NarrowRings
  *
  * @param found radii of the boundaries that were found, ascending, not empty [px].
  * @param scale pixels of the profile a pixel of the camera.
+ * @param ground on which they lie.
  * @param rings receives the result.
  * @return      false if no inks explain what is seen, or rings of two different numbers do.
  */
-bool readNarrowRings(const RingProfile& profile, const std::vector<double>& found, double scale, NarrowRings& rings);
+bool readNarrowRings(const RingProfile& profile, const std::vector<double>& found, double scale, Ground ground,
+                     NarrowRings& rings);
 
 }  // namespace omr
 

@@ -216,11 +216,12 @@ std::string readLetters(RingCandidate& candidate)
   if (areNarrow(left))
   {
     NarrowRings rings;
-    const auto read = [&](const std::vector<double>& found) {
-      return readNarrowRings(*candidate.profile, found, candidate.profile_scale, rings);
+    const auto read = [&](const std::vector<double>& found, Ground ground) {
+      return readNarrowRings(*candidate.profile, found, candidate.profile_scale, ground, rings);
     };
     const bool is_sheet = radii.size() > 2 && !isRound(candidate.boundaries.back());
-    if ((is_sheet && read({radii.begin(), radii.end() - 1})) || read(radii))
+    if ((is_sheet && read({radii.begin(), radii.end() - 1}, Ground::white)) ||
+        read(radii, is_sheet ? Ground::white : Ground::any))
     {
       doubtHidden(candidate, letters, rings);
       takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
