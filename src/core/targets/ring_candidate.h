@@ -19,10 +19,11 @@ struct RingCandidate
   std::vector<Boundary> boundaries;            ///< one per radius of rings; fewer once readLetters() changed them
   int ring_count = 0;                          ///< of them, that were found without assuming equal rings
   std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
-  bool is_spot = false;   ///< grown from a round spot, which has neither regions nor a family of arcs
-  int profile_scale = 1;  ///< pixels of the profile a pixel of the image: small rings are looked at enlarged
-  double visible = 0;     ///< share of the directions in which at least half of the boundaries show [0, 1]
-  double evidence = 0;    ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]
+  bool is_spot = false;       ///< grown from a round spot, which has neither regions nor a family of arcs
+  bool is_explained = false;  ///< by inks, as readLetters() found: then the blur hides no narrow ring
+  int profile_scale = 1;      ///< pixels of the profile a pixel of the image: small rings are looked at enlarged
+  double visible = 0;         ///< share of the directions in which at least half of the boundaries show [0, 1]
+  double evidence = 0;  ///< how completely the boundaries show there: mean of coherence x (agreement, support) [0, 1]
 };
 
 /** Directions in which at least half of the boundaries show: an occluder hides several rings at once. */

@@ -6,6 +6,7 @@
 
 #include "color_key.h"
 #include "narrow_rings.h"
+#include "ring_beyond.h"
 #include "ring_colors.h"
 #include "ring_deblur.h"
 
@@ -225,6 +226,7 @@ std::string readLetters(RingCandidate& candidate)
     {
       doubtHidden(candidate, letters, rings);
       takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
+      candidate.is_explained = true;
       return rings.letters;
     }
   }
@@ -236,8 +238,10 @@ std::string readLetters(RingCandidate& candidate)
 bool hidesRings(const RingCandidate& candidate)
 {
   const double width = narrowestRing(candidate.rings.radii);
-  return width < NARROW && unexplained(*candidate.profile, scaledBy(candidate.profile_scale, candidate.rings.radii)) >
-                               std::max(MOST_UNEXPLAINED, MOST_UNEXPLAINED_WIDTH / width);
+  const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
+  return (width < NARROW &&
+          unexplained(*candidate.profile, radii) > std::max(MOST_UNEXPLAINED, MOST_UNEXPLAINED_WIDTH / width)) ||
+         showsArcBeyond(*candidate.profile, radii, candidate.profile_scale);
 }
 
 }  // namespace omr
