@@ -6,6 +6,7 @@
 
 #include "render_target.h"
 #include "targets/ring_candidate.h"
+#include "targets/ring_roundness.h"
 
 using omr::Boundary;
 
@@ -115,6 +116,27 @@ TEST(RingBoundaries, groundMayResembleTheOutermostRingInPlaces)
 TEST(RingBoundaries, aNarrowFaintRingNeedsEdgesInMostDirections)
 {
   EXPECT_EQ(3U, countOnAlikeGround(greenOnGround({15, 30, 35}, {.1, .17, .06}), .35));
+}
+
+TEST(Roundness, aStepWithoutEdgesIsNoSmallRing)
+{
+  const auto roundnessAt = [](double scale, omr::AngleBins edges_inside, omr::AngleBins edges_outside) {
+    std::vector<Boundary> boundaries(3);
+    for (std::size_t k = 0; k < boundaries.size(); ++k)
+    {
+      boundaries[k].radius = scale * static_cast<double>(k + 1);
+      boundaries[k].contrast = 1;
+      boundaries[k].seen = boundaries[k].agreeing = ~omr::AngleBins{0};
+      boundaries[k].supported = k + 1 < boundaries.size() ? edges_inside : edges_outside;
+    }
+    return omr::roundness(boundaries, omr::AngularSupport({}, 4 * scale));
+  };
+  constexpr omr::AngleBins ALL = ~omr::AngleBins{0};
+  constexpr omr::AngleBins QUARTER = 0x1111111111111111U;
+  EXPECT_LT(roundnessAt(5, ALL, QUARTER), 1) << "a square sheet";
+  EXPECT_GE(roundnessAt(5, ALL, ALL), 1);
+  EXPECT_GE(roundnessAt(5, QUARTER, QUARTER), 1) << "the rings inside have no more edges";
+  EXPECT_GE(roundnessAt(20, ALL, QUARTER), 1) << "no square's sides come so near to a large circle";
 }
 
 TEST(RingBoundaries, whiteOnWhiteIsNone)

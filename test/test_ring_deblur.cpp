@@ -7,6 +7,7 @@
 #include "render_target.h"
 #include "targets/color_key.h"
 #include "targets/ring_fit.h"
+#include "targets/ring_letters.h"
 
 namespace
 {
@@ -44,6 +45,7 @@ omr::RingProfile fourRings(double step)
   profile.count = 80;
   profile.inside.assign(omr::RingProfile::ANGLES, profile.count);
   profile.grey.create(omr::RingProfile::ANGLES, profile.count);
+  profile.color.create(omr::RingProfile::ANGLES, profile.count);
   for (int sample = 0; sample < profile.count; ++sample)
   {
     const double r = profile.step * sample;
@@ -53,6 +55,7 @@ omr::RingProfile fourRings(double step)
       value += (brightness[k + 1] - brightness[k]) * .5 * std::erfc((radii[k] - r) / std::sqrt(2.));
     }
     profile.grey.col(sample).setTo(cv::Scalar::all(value));
+    profile.color.col(sample).setTo(cv::Scalar::all(std::log(value + omr::DARK_LEVEL)));
   }
   return profile;
 }
@@ -153,6 +156,16 @@ TEST(RingFit, aRadiusThatCameAndWentLeavesNoTrace)
   EXPECT_LT(three.rms, two.rms);
   EXPECT_EQ(two.rms, again.rms);
   EXPECT_EQ(two.colors, again.colors);
+}
+
+TEST(RingDeblur, inksThatExplainNarrowRingsHideNone)
+{
+  omr::RingCandidate candidate;
+  candidate.rings.radii = {24, 28, 36};
+  candidate.profile = std::make_shared<omr::RingProfile>(fourRings(100));
+  EXPECT_TRUE(omr::hidesRings(candidate)) << "two rings are one";
+  candidate.is_explained = true;
+  EXPECT_FALSE(omr::hidesRings(candidate));
 }
 
 int main(int argc, char** argv)

@@ -136,6 +136,12 @@ bool looksBent(const RingCandidate& candidate)
          candidate.evidence > BENT_EVIDENCE && candidate.rings.rms > BENT_RMS + BENT_RELATIVE_RMS * radius;
 }
 
+/** How clear the rings are, all together: one more may show less than the others, and is seen nevertheless. */
+double clearness(const RingCandidate& candidate)
+{
+  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
+}
+
 /** Takes the sheet as bent where that explains the rings better. */
 void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::vector<RadialEdgel>& edgels)
 {
@@ -147,7 +153,7 @@ void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::v
   std::vector<RadialEdgel> bent_edgels;
   if (bendRings(map, bent.rings) && settle(map, bgr, bent, bent_edgels) &&
       bent.boundaries.size() >= candidate.boundaries.size() &&
-      bent.evidence * bent.visible > candidate.evidence * candidate.visible - BENT_LOSS &&
+      clearness(bent) > clearness(candidate) - BENT_LOSS * static_cast<double>(bent.boundaries.size()) &&
       bent.rings.rms < gain * candidate.rings.rms)
   {
     candidate = std::move(bent);

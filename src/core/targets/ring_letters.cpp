@@ -154,10 +154,20 @@ bool areNarrow(const std::vector<double>& radii)
   return narrowestRing(radii) < NARROW && radii.back() < NARROW_MEAN * static_cast<double>(radii.size());
 }
 
-/** Whether it shows all around; the outline of a small square sheet comes near to a circle on its four sides. */
-bool isRound(const Boundary& boundary)
+AngleBins shownAt(const Boundary& boundary)
 {
-  return share(boundary.agreeing & boundary.supported) > ROUND;
+  return boundary.agreeing & boundary.supported;
+}
+
+/**
+ * Whether the outermost one shows all around, where one of the two inside it does: something may hide them all. The
+ * outline of a small square sheet comes near to a circle on its four sides. @param boundaries at least three.
+ */
+bool isRound(const std::vector<Boundary>& boundaries)
+{
+  const std::size_t last = boundaries.size() - 1;
+  const AngleBins inside = shownAt(boundaries[last - 1]) | shownAt(boundaries[last - 2]);
+  return share(inside & shownAt(boundaries[last])) > ROUND * share(inside);
 }
 
 /** Letters that inks explain, but that something may hide, become '?'. @param key what colours alone tell. */
@@ -220,7 +230,7 @@ std::string readLetters(RingCandidate& candidate)
     const auto read = [&](const std::vector<double>& found, Ground ground) {
       return readNarrowRings(*candidate.profile, found, candidate.profile_scale, ground, rings);
     };
-    const bool is_sheet = radii.size() > 2 && !isRound(candidate.boundaries.back());
+    const bool is_sheet = radii.size() > 2 && !isRound(candidate.boundaries);
     if ((is_sheet && read({radii.begin(), radii.end() - 1}, Ground::white)) ||
         read(radii, is_sheet ? Ground::white : Ground::any))
     {
@@ -239,7 +249,7 @@ bool hidesRings(const RingCandidate& candidate)
 {
   const double width = narrowestRing(candidate.rings.radii);
   const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
-  return (width < NARROW &&
+  return (width < NARROW && !candidate.is_explained &&
           unexplained(*candidate.profile, radii) > std::max(MOST_UNEXPLAINED, MOST_UNEXPLAINED_WIDTH / width)) ||
          showsArcBeyond(*candidate.profile, radii, candidate.profile_scale);
 }
