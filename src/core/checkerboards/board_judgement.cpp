@@ -46,6 +46,12 @@ bool isClear(const Lattice& lattice, const Evidence& evidence)
 
 }  // namespace
 
+bool isOvergrown(const Lattice& lattice)
+{
+  constexpr int MAX_OVERGROWTH = 4;  // lines
+  return std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + MAX_OVERGROWTH;
+}
+
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
   return lattice.count() >= BORDERLESS_CORNERS || latticeEvidence(lattice).correlation >= BORDERLESS_CORRELATION ||

@@ -11,6 +11,10 @@ namespace omr
 {
 constexpr int MAX_SIDE = 20;  ///< paper, section 3.4: at most 21x21 squares; inner corners are one less
 
+/** Whether a lattice is larger than any board, even with the lines of false corners that the shadow of a fence draws in
+ * the margin and that are trimmed later: a tiling goes on over the whole picture. */
+bool isOvergrown(const Lattice& lattice);
+
 /** Whether a lattice is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
 bool mayBePart(const Lattice& lattice, CornerLooker& looker);
 

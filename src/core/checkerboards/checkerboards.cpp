@@ -31,7 +31,6 @@ namespace omr
 {
 namespace
 {
-constexpr int MAX_OVERGROWTH = 4;  // lines of false corners in the margin under the shadow of a fence; trimmed later
 constexpr float MAX_GROWING_DOUBT = 2.6F;
 constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
 constexpr int MIN_CORNERS = 6;           // within reach of one another, or it is no lattice
@@ -92,8 +91,7 @@ Growth growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, Se
     }
     Evidence evidence = latticeEvidence(lattice);
     evidence.fill = 1;  // holes are not judged before the gaps are jumped
-    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) ||
-        std::max(lattice.box.width, lattice.box.height) > MAX_SIDE + MAX_OVERGROWTH)
+    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || isOvergrown(lattice))
     {
       noteFailure(lattice, 1, map);
       return Growth::doubtful;
