@@ -11,4 +11,11 @@
 #define OMR_VECTORIZED
 #endif
 
+/** What such functions share: it must become part of each, as on its own it would have the narrow vectors. */
+#ifdef __GNUC__
+#define OMR_PART_OF_VECTORIZED inline __attribute__((always_inline))
+#else
+#define OMR_PART_OF_VECTORIZED inline
+#endif
+
 #endif

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "local_frame.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -21,7 +22,8 @@ struct SamplePlaces
 
 /** sampleGrey() of all places; to be called from a function that is OMR_VECTORIZED. */
 template <std::size_t SIZE>
-inline void sampleGreys(const cv::Mat& grey, const SamplePlaces<SIZE>& places, std::array<float, SIZE>& values)
+OMR_PART_OF_VECTORIZED void sampleGreys(const cv::Mat& grey, const SamplePlaces<SIZE>& places,
+                                        std::array<float, SIZE>& values)
 {
   const float last_x = lastPlace(grey.cols);
   const float last_y = lastPlace(grey.rows);
@@ -64,8 +66,8 @@ const std::array<float, 257>& greyLogarithmTable();
 
 /** greyLogarithm() of all values; to be called from a function that is OMR_VECTORIZED. */
 template <std::size_t SIZE>
-inline void greyLogarithms(const std::array<float, 257>& table, const std::array<float, SIZE>& grey,
-                           std::array<float, SIZE>& logarithms)
+OMR_PART_OF_VECTORIZED void greyLogarithms(const std::array<float, 257>& table, const std::array<float, SIZE>& grey,
+                                           std::array<float, SIZE>& logarithms)
 {
   std::array<int, SIZE> level;
   std::array<float, SIZE> lower;
