@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "corner_ring.h"
+#include "grey_samples.h"
 #include "saddle_fit.h"
+#include "vectorized.h"
 
 namespace omr
 {
@@ -69,12 +71,40 @@ Verdict judgeRing(const PyramidView& view, const LocalFrame& frame, const Corner
   return verdict;
 }
 
-/** Quick look before the ring: one sample a quadrant must alternate, whatever the sign. */
-bool mayAlternate(const PyramidView& view, const LocalFrame& frame)
+// Places around a prediction where the ring is looked at.
+constexpr int STEPS = 2;  // to either side
+constexpr int SIDE = 2 * STEPS + 1;
+constexpr int PLACES = SIDE * SIDE;
+
+/** Quick look before the ring: one sample a quadrant must alternate, whatever the sign. All places side by side. */
+OMR_VECTORIZED void findAlternating(const PyramidView& view, const LocalFrame& local_frame,
+                                    const SamplePlaces<PLACES>& places, std::array<int, PLACES>& alternates)
 {
   constexpr float RADIUS = 0.3F;
-  const std::array<float, QUADRANTS> grey = sampleQuadrants(view, frame, RADIUS);
-  return quadrantGap(grey, 1) > 0 || quadrantGap(grey, -1) > 0;
+  const LocalFrame frame = local_frame;
+  const float scale = view.scale;
+  SamplePlaces<QUADRANTS * PLACES> quadrants;
+  for (int q = 0; q < QUADRANTS; ++q)
+  {
+    const float u = RADIUS * QUADRANT_U[q];
+    const float v = RADIUS * QUADRANT_V[q];
+    for (int i = 0; i < PLACES; ++i)
+    {
+      // LocalFrame::at()
+      quadrants.x[q * PLACES + i] = (places.x[i] + u * frame.u.x + v * frame.v.x) * scale;
+      quadrants.y[q * PLACES + i] = (places.y[i] + u * frame.u.y + v * frame.v.y) * scale;
+    }
+  }
+  std::array<float, QUADRANTS * PLACES> grey;
+  sampleGreys(*view.grey, quadrants, grey);
+  for (int i = 0; i < PLACES; ++i)
+  {
+    const float a = grey[i];
+    const float b = grey[PLACES + i];
+    const float c = grey[2 * PLACES + i];
+    const float d = grey[3 * PLACES + i];
+    alternates[i] = (std::min(a, c) > std::max(b, d)) | (std::min(b, d) > std::max(a, c)) ? 1 : 0;
+  }
 }
 
 /** Where the ring alternates around a prediction too far off for the saddle fit. */
@@ -88,21 +118,27 @@ struct RingSearch
 
 RingSearch searchRing(const PyramidView& view, const LocalFrame& predicted, const CornerQuery& query)
 {
-  constexpr int STEPS = 2;  // to either side
   constexpr float CLEAR_SHARE = 0.8F;
-  std::array<float, (2 * STEPS + 1) * (2 * STEPS + 1)> gaps = {};
-  const auto place = [&](std::size_t index) {
-    const int row = static_cast<int>(index) / (2 * STEPS + 1) - STEPS;
-    const int col = static_cast<int>(index) % (2 * STEPS + 1) - STEPS;
-    const float step = query.tolerance / STEPS;
-    return predicted.at(static_cast<float>(col) * step, static_cast<float>(row) * step);
-  };
+  SamplePlaces<PLACES> places;
+  const float step = query.tolerance / STEPS;
+  for (int i = 0; i < PLACES; ++i)
+  {
+    const int row = i / SIDE - STEPS;
+    const int col = i % SIDE - STEPS;
+    const cv::Point2f point = predicted.at(static_cast<float>(col) * step, static_cast<float>(row) * step);
+    places.x[i] = point.x;
+    places.y[i] = point.y;
+  }
+  const auto place = [&](std::size_t index) { return cv::Point2f(places.x[index], places.y[index]); };
+  std::array<int, PLACES> alternates;
+  findAlternating(view, predicted, places, alternates);
+  std::array<float, PLACES> gaps = {};
   for (std::size_t i = 0; i < gaps.size(); ++i)
   {
-    LocalFrame moved = predicted;
-    moved.node = place(i);
-    if (mayAlternate(view, moved))
+    if (alternates[i] != 0)
     {
+      LocalFrame moved = predicted;
+      moved.node = place(i);
       const Verdict verdict = judgeQuadrants(sampleRing(view, moved, INNER_RADIUS, OUTER_RADIUS));
       gaps[i] = query.sign == 0 || verdict.sign == query.sign ? verdict.gap : 0;
     }
