@@ -29,15 +29,37 @@ bool fitHomography(const std::vector<cv::Point2d>& from, const std::vector<cv::P
       const cv::Point2d target = (to[i] - center) / size;
       const double denominator = round == 0 ? 1 : fitted(2, 0) * x + fitted(2, 1) * y + 1;
       const double weight = weights[i] / (denominator * denominator);
-      const cv::Vec<double, UNKNOWNS> first(x, y, 1, 0, 0, 0, -target.x * x, -target.x * y);
-      const cv::Vec<double, UNKNOWNS> second(0, 0, 0, x, y, 1, -target.y * x, -target.y * y);
-      for (int a = 0; a < UNKNOWNS; ++a)
+      const cv::Vec3d place(x, y, 1);
+      // Of the equations of x (place, 0, -x place) and of y (0, place, -y place) only what is not 0.
+      for (int a = 0; a < 3; ++a)
       {
         for (int b = 0; b <= a; ++b)
         {
-          normal(a, b) += weight * (first[a] * first[b] + second[a] * second[b]);
+          normal(a, b) += weight * (place[a] * place[b]);
         }
-        right[a] += weight * (first[a] * target.x + second[a] * target.y);
+        right[a] += weight * (place[a] * target.x);
+        right[3 + a] += weight * (place[a] * target.y);
+      }
+      for (int a = 0; a < 2; ++a)
+      {
+        const cv::Point2d lean = -place[a] * target;
+        for (int b = 0; b < 3; ++b)
+        {
+          normal(6 + a, b) += weight * (lean.x * place[b]);
+          normal(6 + a, 3 + b) += weight * (lean.y * place[b]);
+        }
+        for (int b = 0; b <= a; ++b)
+        {
+          normal(6 + a, 6 + b) += weight * lean.dot(-place[b] * target);
+        }
+        right[6 + a] += weight * lean.dot(target);
+      }
+    }
+    for (int a = 0; a < 3; ++a)
+    {
+      for (int b = 0; b <= a; ++b)
+      {
+        normal(3 + a, 3 + b) = normal(a, b);
       }
     }
     for (int a = 0; a < UNKNOWNS; ++a)

@@ -35,11 +35,14 @@ struct Corners
   {
     std::vector<cv::Point2d> straight;
     std::vector<double> weights;
+    straight.reserve(points.size());
+    weights.reserve(points.size());
     for (const cv::Point2d& point : points)
     {
       const double shrunk = distortion * point.dot(point);
       straight.push_back(undistort(point, distortion));
-      weights.push_back(std::pow(1 - shrunk, 3) / (1 + shrunk));  // of the stretch's area: residuals are the picture's
+      const double rest = 1 - shrunk;
+      weights.push_back(rest * rest * rest / (1 + shrunk));  // of the stretch's area: residuals are the picture's
     }
     if (!fitHomography(places, straight, weights, homography))
     {
