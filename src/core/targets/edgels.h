@@ -50,11 +50,11 @@ class EdgelTile
 
   void assign(std::size_t count, const float* x, const float* y, const float* nx, const float* ny)
   {
-    values_.resize(4 * count);
-    auto end = values_.begin();
+    values_.clear();
+    values_.reserve(4 * count);
     for (const float* values : {x, y, nx, ny})
     {
-      end = std::copy_n(values, count, end);
+      values_.insert(values_.end(), values, values + count);
     }
   }
 
