@@ -110,7 +110,7 @@ TEST(CheckerboardsInShadow, aWholeLatticeIsFoundBelowAFenceWithoutABorder)
   render.addPolygon({at(-1, 7.5), at(11, 7.5), at(11, 9), at(-1, 9)}, paper);
   render.addPolygon({at(-1, -1), at(0.5, -1), at(0.5, 9), at(-1, 9)}, paper);
   render.addPolygon({at(9.5, -1), at(11, -1), at(11, 9), at(9.5, 9)}, paper);
-  addFence(render, {300, 220}, 30);
+  addFence(render, {300, 220}, 40);
   const std::vector<Checkerboard> boards = find(render.picture(0.8));
   ASSERT_EQ(1u, boards.size());
   EXPECT_EQ(8, boards[0].rows);

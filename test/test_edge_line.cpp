@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <utility>
 
 #include "checkerboards/board_judgement.h"
 #include "checkerboards/edge_growth.h"
+#include "checkerboards/edge_reading.h"
 #include "lattices.h"
 #include "render.h"
 
@@ -78,6 +80,24 @@ TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
   render.addBoard(ROWS, COLS, place());
   const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
   render.addPolygon({corner(-2, CUT), corner(COLS + 2, CUT), corner(COLS + 2, 9), corner(-2, 9)}, cv::Scalar::all(110));
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  Sides sides;
+  sides.fill(omr::SideEvidence::none);
+  omr::settleRims(frame, firstRows(ROWS - 1), sides);
+  EXPECT_EQ(omr::SideEvidence::rim, sides[omr::bottom]);
+  sides.fill(omr::SideEvidence::none);
+  omr::settleRims(frame, firstRows(ROWS - 2), sides);
+  EXPECT_EQ(omr::SideEvidence::none, sides[omr::bottom]) << "half a line of squares follows";
+}
+
+TEST(EdgeLine, aFewOfTheCutSquaresSayThatTheyAreTheLast)
+{
+  constexpr double CUT = ROWS - 0.5;
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  render.addPolygon({corner(-2, CUT), corner(COLS + 2, CUT), corner(COLS + 2, 9), corner(-2, 9)}, cv::Scalar::all(110));
+  render.addPolygon({corner(-2, 5.2), corner(4.6, 5.2), corner(4.6, 9), corner(-2, 9)}, cv::Scalar::all(230));
   const Frame frame = omr::makeFrame(render.picture(0.8));
   Sides sides;
   sides.fill(omr::SideEvidence::none);
@@ -176,6 +196,62 @@ TEST(EdgeGrowth, growsWhereRingsDoNot)
   Lattice lattice;
   EXPECT_TRUE(omr::growByEdges(frame, frameAt(3, 3), lattice));
   EXPECT_GE(lattice.count(), 12);
+}
+
+// In a deep shadow of narrow bars too few edges around a corner are alike by themselves: 4 of these 35.
+TEST(EdgeGrowth, theRatioOfTheFirstCornerHelpsItsNeighbours)
+{
+  constexpr double SLOPE = 3;  // rows of squares from one end of a bar to the other
+  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+  int grown = 0;
+  for (const auto& [period, width] : {std::pair{0.45, 0.315}, {0.6, 0.3}, {0.6, 0.42}, {0.8, 0.24}, {0.8, 0.4}})
+  {
+    Render render({400, 340});
+    render.addBoard(ROWS, COLS, place());
+    for (int i = -34; i < 54; ++i)
+    {
+      const double from = period * i;
+      const double to = from + width;
+      render.addShadow({corner(-2, from), corner(COLS + 2, from + SLOPE), corner(COLS + 2, to + SLOPE), corner(-2, to)},
+                       0.15);
+    }
+    const Frame frame = omr::makeFrame(render.picture(0.8));
+    for (int x = 1; x < COLS; ++x)
+    {
+      Lattice lattice;
+      grown += omr::growByEdges(frame, frameAt(x, 3), lattice) ? 1 : 0;
+    }
+  }
+  EXPECT_GE(grown, 10);
+}
+
+TEST(EdgeReading, cornersAreFittedAsFarAsTheirSurfaceAdmits)
+{
+  Render render({400, 340});
+  render.addBoard(ROWS, COLS, place());
+  const cv::Point2d hidden = at(3, 3);
+  const double size = SQUARE / 4;
+  render.addPolygon({hidden + cv::Point2d(-1, -size), hidden + cv::Point2d(2 * size, -size),
+                     hidden + cv::Point2d(2 * size, 2 * size), hidden + cv::Point2d(-1, 2 * size)},
+                    cv::Scalar::all(35));
+  const Frame frame = omr::makeFrame(render.picture(0.8));
+  Lattice lattice = firstRows(ROWS - 1);
+  for (int i = 0; i < ROWS - 1; ++i)
+  {
+    for (int j = 0; j < COLS - 1; ++j)
+    {
+      lattice.at(Lattice::SEED + i, Lattice::SEED + j).position += cv::Point2f((i + j) % 2 == 0 ? 1.F : -1.F, 0);
+    }
+  }
+  omr::fitReadCorners(frame, lattice);
+  for (int i = 0; i < ROWS - 1; ++i)
+  {
+    for (int j = 0; j < COLS - 1; ++j)
+    {
+      const double error = cv::norm(lattice.at(Lattice::SEED + i, Lattice::SEED + j).position - at(j + 1, i + 1));
+      EXPECT_LT(error, i == 2 && j == 2 ? 3.1 : 0.2) << i << " " << j;
+    }
+  }
 }
 
 TEST(EdgeGrowth, bareGroundHasNoEdges)

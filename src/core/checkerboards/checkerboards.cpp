@@ -146,6 +146,7 @@ bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence
   {
     return false;
   }
+  fitReadCorners(frame, lattice);
   for (const Side side : SIDES)
   {
     if (sides[side] == SideEvidence::doubtful_border && lookAtBorder(lattice, frame, side, 1).ends() &&

@@ -22,6 +22,9 @@ namespace omr
  */
 bool readByEdges(const Frame& frame, Lattice& lattice, std::array<SideEvidence, 4>& sides);
 
+/** Moves the corners of a lattice that was read to where their pictures have them, as far as its surface admits it. */
+void fitReadCorners(const Frame& frame, Lattice& lattice);
+
 }  // namespace omr
 
 #endif
