@@ -90,24 +90,6 @@ TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
   EXPECT_EQ(omr::SideEvidence::none, sides[omr::bottom]) << "half a line of squares follows";
 }
 
-TEST(EdgeLine, aFewOfTheCutSquaresSayThatTheyAreTheLast)
-{
-  constexpr double CUT = ROWS - 0.5;
-  Render render({400, 340});
-  render.addBoard(ROWS, COLS, place());
-  const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
-  render.addPolygon({corner(-2, CUT), corner(COLS + 2, CUT), corner(COLS + 2, 9), corner(-2, 9)}, cv::Scalar::all(110));
-  render.addPolygon({corner(-2, 5.2), corner(4.6, 5.2), corner(4.6, 9), corner(-2, 9)}, cv::Scalar::all(230));
-  const Frame frame = omr::makeFrame(render.picture(0.8));
-  Sides sides;
-  sides.fill(omr::SideEvidence::none);
-  omr::settleRims(frame, firstRows(ROWS - 1), sides);
-  EXPECT_EQ(omr::SideEvidence::rim, sides[omr::bottom]);
-  sides.fill(omr::SideEvidence::none);
-  omr::settleRims(frame, firstRows(ROWS - 2), sides);
-  EXPECT_EQ(omr::SideEvidence::none, sides[omr::bottom]) << "half a line of squares follows";
-}
-
 TEST(EdgeLine, anUnevenLatticeWithoutABorderEndsOnlyWhereSquaresShow)
 {
   constexpr double HIDDEN = ROWS - 1 + 0.1;

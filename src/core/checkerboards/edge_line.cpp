@@ -62,10 +62,8 @@ bool EdgeLine::ends() const
 
 bool EdgeLine::isLast() const
 {
-  // Of squares cut in half one edge in two is there, and gloss or a thing on them hides some of these: with 0.25 of 648
-  // boards that shadows, gloss, poles and sheets hide in part 9 fewer are found and 1 more is wrong. Where the lattice
-  // goes on below a thing 0.61 of the light end.
-  return inside >= 0.1F && beyond <= 0.25F * inside && light <= std::max(0.15F, std::min(dark, 0.6F));
+  // Of squares cut in half one edge in two is there; where the lattice goes on below a thing 0.61 of the light end.
+  return inside >= 0.25F && beyond <= 0.25F * inside && light <= std::max(0.15F, std::min(dark, 0.6F));
 }
 
 bool EdgeLine::goesOn() const
