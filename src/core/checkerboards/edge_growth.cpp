@@ -27,7 +27,7 @@ bool lookAt(const Frame& frame, const LocalFrame& predicted, int sign, float& ra
   CornerEdges edges = lookAtEdges(view, predicted, sign);
   if (ratio > 0 && (!edges.alike || std::abs(edges.ratio - ratio) > MAX_DIFFERENCE * ratio))
   {
-    // Of 648 boards that shadows, gloss, poles and sheets hide in part 537 -> 541 are found.
+    // Of 648 boards that shadows, gloss, poles and sheets hide in part 528 -> 532 are found.
     edges = lookAtKnownEdges(view, predicted, sign, ratio);
   }
   ratio = edges.ratio;
