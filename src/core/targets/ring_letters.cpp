@@ -23,9 +23,10 @@ constexpr double EVIDENT_SHARE = .5;
 
 // What uniform rings leave unexplained of a target with narrow ones, relative to its contrast: more shows that the blur
 // hides rings. Of 25 targets of the field with a ring too many or too few 9 have more, of 132 others 1. Sharp rings of
-// 2 to 3 px, which few samples show, have up to .065.
+// 2 to 3 px, which few samples show, have up to .06 where inks do not explain them.
 constexpr double NARROW = 5;  // [px]
 constexpr double MOST_UNEXPLAINED = .057;
+constexpr double MOST_UNEXPLAINED_SHARP = .06;
 constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
 
 // Between two hues compression leaves a faint one of both, and this may have an edge of its own: in 5 of 2200 targets,
@@ -250,7 +251,8 @@ bool hidesRings(const RingCandidate& candidate)
   const double width = narrowestRing(candidate.rings.radii);
   const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
   return (width < NARROW && !candidate.is_explained &&
-          unexplained(*candidate.profile, radii) > std::max(MOST_UNEXPLAINED, MOST_UNEXPLAINED_WIDTH / width)) ||
+          unexplained(*candidate.profile, radii) >
+              std::clamp(MOST_UNEXPLAINED_WIDTH / width, MOST_UNEXPLAINED, MOST_UNEXPLAINED_SHARP)) ||
          showsArcBeyond(*candidate.profile, radii, candidate.profile_scale);
 }
 
