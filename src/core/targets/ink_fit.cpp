@@ -220,6 +220,11 @@ InkFit::InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale,
 {
 }
 
+bool InkFit::isOnWhite() const
+{
+  return source_.white == source_.samples.back();
+}
+
 /** Calls with the rest of each blur, and its deviations. */
 template <typename Call>
 void InkFit::forEachBlur(const std::vector<double>& radii, const Call& call) const

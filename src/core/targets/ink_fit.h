@@ -32,6 +32,9 @@ class InkFit
    */
   InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale, Ground ground);
 
+  /** Whether what is around is taken for white. */
+  bool isOnWhite() const;
+
   /** Takes the blur with which one of these is explained best; before it, the usual one counts. */
   void chooseBlur(const std::vector<std::vector<double>>& sets_of_radii);
 
