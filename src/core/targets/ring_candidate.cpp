@@ -44,8 +44,8 @@ constexpr double CLEAR_CONTRAST = .5;
 constexpr double CLEAR_SUPPORT = .45;
 constexpr double CLEAR_AGREEMENT = .85;
 constexpr double COVERED_RADIUS = 5;  // smaller disks have no edge of their own in the blur [px]
-// A pole across a small disk leaves no place of it that the blur does not mix: two such were read in the pole's colour,
-// and two of 13000 that have less were not.
+// A pole across a small disk leaves no place of it that the blur does not mix. Of 13000 rings in drawn and path-traced
+// scenes four become '?' so, of which two were read in the pole's colour.
 constexpr double SMALL_DISK = 7;  // radius [px]
 constexpr double SMALL_SUPPORT = .6;
 constexpr double SMALL_AGREEMENT = .75;
