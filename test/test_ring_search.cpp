@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <opencv2/imgproc.hpp>
 
@@ -44,6 +45,15 @@ cv::Mat clutter(const cv::Size& size)
   return image;
 }
 
+/** Without those that only inks may tell: in clutter many a disk lies in another. */
+std::vector<omr::RingCandidate> clearOf(std::vector<omr::RingCandidate> candidates)
+{
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(),
+                                  [](const omr::RingCandidate& candidate) { return candidate.is_merged; }),
+                   candidates.end());
+  return candidates;
+}
+
 /** One seed's growth may begin before the looks are spent. */
 constexpr double ONE_GROWTH = 250000;
 /** Concentric polygons, black and white, the outermost with this radius around the image's middle. */
@@ -71,7 +81,7 @@ TEST(RingSearch, clutterTakesNoMoreThanTheAllowedLooks)
   const cv::Mat image = clutter({1600, 1200});
   const omr::RegionMap regions = regionsOf(image);
   omr::EdgelMap map(image);
-  EXPECT_TRUE(omr::findRingCandidates(map, image, regions, {}, {}, 3).empty());
+  EXPECT_TRUE(clearOf(omr::findRingCandidates(map, image, regions, {}, {}, 3)).empty());
   EXPECT_GT(map.looks(), .5 * omr::allowedLooks(image.size()));
   EXPECT_LT(map.looks(), omr::allowedLooks(image.size()) + ONE_GROWTH);
 }
@@ -93,7 +103,7 @@ TEST(RingSearch, aTargetComesBeforeTheClutterAroundIt)
   cv::Mat image = clutter({1600, 1200});
   target.copyTo(image(cv::Rect(cv::Point(600, 400), target.size())));
   omr::EdgelMap map(image);
-  const auto candidates = omr::findRingCandidates(map, image, regionsOf(image), {}, {}, 3);
+  const auto candidates = clearOf(omr::findRingCandidates(map, image, regionsOf(image), {}, {}, 3));
   ASSERT_EQ(1U, candidates.size());
   EXPECT_EQ(5, candidates[0].ring_count);
   EXPECT_NEAR(0, cv::norm(candidates[0].rings.family.center - projectedCenter(scene) - cv::Point2d(600, 400)), .2);
@@ -181,7 +191,7 @@ TEST(RingSearch, isTheSameForAnyNumberOfThreads)
   {
     cv::setNumThreads(count);
     omr::EdgelMap map(image);
-    for (const omr::RingCandidate& candidate : omr::findRingCandidates(map, image, regions, {}, {}, 3))
+    for (const omr::RingCandidate& candidate : clearOf(omr::findRingCandidates(map, image, regions, {}, {}, 3)))
     {
       centers.push_back(candidate.rings.family.center);
     }

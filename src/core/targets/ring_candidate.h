@@ -20,6 +20,7 @@ struct RingCandidate
   int ring_count = 0;                          ///< of them, that were found without assuming equal rings
   std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
   bool is_spot = false;       ///< grown from a round spot, which has neither regions nor a family of arcs
+  bool is_merged = false;     ///< two boundaries of narrow rings, which are a target if inks tell that they are more
   bool is_explained = false;  ///< by inks, as readLetters() found: then the blur hides no narrow ring
   int profile_scale = 1;      ///< pixels of the profile a pixel of the image: small rings are looked at enlarged
   double visible = 0;         ///< share of the directions in which at least half of the boundaries show [0, 1]
@@ -59,6 +60,9 @@ bool isClearTarget(const RingCandidate& candidate, int min_rings);
 
 /** The same, or so much shows that it does not matter in how many directions. */
 bool isTarget(const RingCandidate& candidate, int min_rings);
+
+/** Whether there are two clear boundaries of rings so narrow that the blur may hide more. */
+bool mayHideRings(const RingCandidate& candidate);
 
 /** Whether isTarget() may be true of rings that were settled in some directions only. */
 bool maySuffice(const RingCandidate& candidate);

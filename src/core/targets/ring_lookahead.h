@@ -25,7 +25,9 @@ struct GrownSeed
   /** Of a candidate that is no target nothing is kept: seeds are copied. */
   void settle(bool is_grown, int min_rings)
   {
-    is_target = is_grown && isTarget(candidate, min_rings);
+    const bool is_clear = is_grown && isTarget(candidate, min_rings);
+    candidate.is_merged = is_grown && !is_clear && mayHideRings(candidate);
+    is_target = is_clear || candidate.is_merged;
     if (!is_target)
     {
       candidate = RingCandidate();

@@ -20,8 +20,8 @@ bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 
 bool isUndisputed(const RingCandidate& candidate)
 {
-  return candidate.evidence * candidate.visible > UNDISPUTED ||
-         (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE);
+  return !candidate.is_merged && (candidate.evidence * candidate.visible > UNDISPUTED ||
+                                  (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE));
 }
 
 /** Whether a corner of the board is seen beside a point. @param square side of a square [px] */
@@ -40,7 +40,9 @@ bool showsNear(const Checkerboard& board, const cv::Point2d& point, double squar
 
 double score(const RingCandidate& candidate)
 {
-  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
+  return candidate.is_merged
+             ? 0
+             : candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
 }
 
 bool isOnBoard(const cv::Point2d& point, const std::vector<Checkerboard>& boards)

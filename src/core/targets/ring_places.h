@@ -20,7 +20,7 @@ bool isInAny(const std::vector<RingCandidate>& candidates, const cv::Point2d& po
 /** Whether one of the candidates contains the other's centre, or the other its centre. */
 bool isInAny(const std::vector<RingCandidate>& candidates, const RingCandidate& other);
 
-/** How much speaks for a candidate: clearness, of each of its boundaries. */
+/** How much speaks for a candidate: clearness, of each of its boundaries; 0 for one that only inks may tell. */
 double score(const RingCandidate& candidate);
 
 /** Of candidates one of which contains the other's centre, the best. */

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <utility>
@@ -106,11 +107,14 @@ class Search
   /** Grows the roundest where nothing was found; that takes none of the looks. */
   void trySpots(const std::vector<RoundSpot>& spots)
   {
+    std::vector<RingCandidate> found;
+    std::copy_if(candidates_.begin(), candidates_.end(), std::back_inserter(found),
+                 [](const RingCandidate& candidate) { return !candidate.is_merged; });
     std::vector<RoundSpot> open;
     for (const RoundSpot& spot : spots)
     {
       if (open.size() < MAX_SPOTS && mayBeRings(spot) && !isOnBoard(spot.center, boards_) &&
-          !isInAny(candidates_, spot.center))
+          !isInAny(found, spot.center))
       {
         open.push_back(spot);
       }
@@ -123,7 +127,6 @@ class Search
         is_target[i] = !isVain() && growSpot(map_, bgr_, open[i], min_rings_, grown[i]) ? 1 : 0;
       }
     });
-    const std::vector<RingCandidate> found = candidates_;
     for (std::size_t i = 0; i < open.size(); ++i)
     {
       const cv::Point2d& center = grown[i].rings.family.center;

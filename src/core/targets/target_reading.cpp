@@ -104,7 +104,8 @@ void setRings(const Rings& rings, Target& target)
 bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target& target)
 {
   target.colors = readLetters(candidate);
-  if (hidesRings(candidate))
+  const bool is_read = target.colors.find('?') == std::string::npos;
+  if ((candidate.is_merged && !(candidate.is_explained && is_read)) || hidesRings(candidate))
   {
     return false;
   }
