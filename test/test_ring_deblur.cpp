@@ -101,6 +101,31 @@ TEST(RingDeblur, completeRingsMissNone)
   EXPECT_EQ(0, omr::mergedBoundary(profileOf(scene), scene.radii));
 }
 
+TEST(RingDeblur, aBlackSeamBetweenTwoHuesIsARing)
+{
+  TargetScene scene;
+  scene.radii = {5, 10, 15, 20, 25};
+  scene.blur = 1.3;
+  for (const std::string colors : {"WGPRB", "WBRPB"})
+  {
+    scene.colors = colors;
+    std::vector<double> found = scene.radii;
+    const std::size_t ring = colors.find('P');
+    const double middle = (found[ring - 1] + found[ring]) / 2;
+    found.erase(found.begin() + static_cast<std::ptrdiff_t>(ring));
+    found[ring - 1] = middle;
+    const omr::RingProfile profile = profileOf(scene);
+    const omr::SeamRing seam = omr::seamRing(profile, found, std::vector<bool>(found.size(), true));
+    EXPECT_EQ(ring - 1, seam.boundary) << colors;
+    EXPECT_NEAR(2.5, seam.half_width, 1) << colors;
+    EXPECT_EQ(0, omr::seamRing(profile, found, std::vector<bool>(found.size(), false)).half_width) << colors;
+    EXPECT_EQ(0, omr::seamRing(profile, scene.radii, std::vector<bool>(scene.radii.size(), true)).half_width) << colors;
+  }
+  scene.colors = "GRBG";  // no seam is where two hues meet
+  scene.radii = {5, 10, 15, 20};
+  EXPECT_EQ(0, omr::seamRing(profileOf(scene), scene.radii, std::vector<bool>(4, true)).half_width);
+}
+
 TEST(RingDeblur, whatTheBlurHidesIsLeftUnexplained)
 {
   TargetScene scene;

@@ -10,6 +10,7 @@ namespace
 {
 constexpr int MOST_SPLITS = 2;
 constexpr double LEAST_SHOWN = .12;  // of the directions
+constexpr double WHOLE = .8;         // likewise
 
 /** Removes the boundaries of which the predicate is true of their index, while three are left. */
 template <typename Predicate>
@@ -61,6 +62,30 @@ void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
                                 measureBoundary(*candidate.profile, support, radii, static_cast<std::size_t>(ring)));
     candidate.rings.radii.insert(candidate.rings.radii.begin() + ring, radius * scale);
   }
+}
+
+void widenSeam(const AngularSupport& support, RingCandidate& candidate)
+{
+  std::vector<double> radii = radiiOf(candidate.boundaries);
+  std::vector<bool> whole(radii.size());
+  std::transform(candidate.boundaries.begin(), candidate.boundaries.end(), whole.begin(),
+                 [](const Boundary& boundary) { return share(boundary.agreeing) > WHOLE; });
+  const SeamRing seam = seamRing(*candidate.profile, radii, whole);
+  if (seam.half_width <= 0)
+  {
+    return;
+  }
+  const std::size_t k = seam.boundary;
+  const double scale = candidate.rings.radii[k] / radii[k];  // as above
+  const double middle = radii[k];
+  const auto next = static_cast<std::ptrdiff_t>(k) + 1;
+  radii[k] = middle - seam.half_width;
+  radii.insert(radii.begin() + next, middle + seam.half_width);
+  candidate.rings.radii[k] = radii[k] * scale;
+  candidate.rings.radii.insert(candidate.rings.radii.begin() + next, radii[k + 1] * scale);
+  candidate.boundaries[k] = measureBoundary(*candidate.profile, support, radii, k);
+  candidate.boundaries.insert(candidate.boundaries.begin() + next,
+                              measureBoundary(*candidate.profile, support, radii, k + 1));
 }
 
 }  // namespace omr

@@ -14,6 +14,9 @@ void removeUnseen(RingCandidate& candidate);
 /** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate);
 
+/** Makes a ring of a boundary that is a seam: the black between two hues. */
+void widenSeam(const AngularSupport& support, RingCandidate& candidate);
+
 }  // namespace omr
 
 #endif

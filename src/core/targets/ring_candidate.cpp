@@ -191,7 +191,9 @@ bool completeOpen(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
   }
   if (candidate.evidence > SPLIT_EVIDENCE && narrowestRing(rings.radii) < SPLIT_WIDTH)
   {
-    splitMergedRings(AngularSupport(edgels, profileReach(rings)), candidate);
+    const AngularSupport support(edgels, profileReach(rings));
+    splitMergedRings(support, candidate);
+    widenSeam(support, candidate);
   }
   removeBlur(candidate);
   if (~rings.open != 0)

@@ -42,6 +42,21 @@ bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::s
  */
 double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii);
 
+/** A ring between two others whose boundaries the blur merges to one. */
+struct SeamRing
+{
+  std::size_t boundary = 0;  ///< index of what is left of them
+  double half_width = 0;     ///< [px]; 0: there is no such ring
+};
+
+/**
+ * A ring that is no more than a seam between its neighbours, darker than both, or brighter: no mixture of them is.
+ *
+ * @param radii of the known boundaries [px], not empty.
+ * @param whole of each, whether it shows all around: what lies across one is no ring.
+ */
+SeamRing seamRing(const RingProfile& profile, const std::vector<double>& radii, const std::vector<bool>& whole);
+
 }  // namespace omr
 
 #endif
