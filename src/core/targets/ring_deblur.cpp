@@ -19,7 +19,7 @@ constexpr double MOST_LEFT = .6;      // of the root mean square
 constexpr double MERGED_WIDTH = 1.6;  // of the narrowest ring: least width of two
 constexpr double NARROWEST = 2;       // ring [px]
 constexpr double SEARCH_STEP = .5;    // [px]
-// Three of 28 targets in ten path-traced scenes lacked the black ring of 5 to 6 px between two hues; of 2958 others one
+// Three of 25 targets in ten path-traced scenes lacked the black ring of 5 to 6 px between two hues; of 2958 others one
 // more has the right number of rings so, and one a wrong one.
 constexpr double MOST_LEFT_OF_SEAM = .7;  // of the root mean square
 constexpr double SEAM_STEP = .05;         // of the strongest contrast
