@@ -125,8 +125,10 @@ SeamRing seamRing(const RingProfile& profile, const std::vector<double>& radii, 
       continue;
     }
     const double widest = std::min(radii[k] - (k > 0 ? radii[k - 1] : 0), radii[k + 1] - radii[k]) - NARROWEST;
-    for (double half_width = NARROWEST / 2; half_width <= widest; half_width += SEARCH_STEP)
+    const int places = static_cast<int>(std::floor((widest - NARROWEST / 2) / SEARCH_STEP)) + 1;
+    for (int i = 0; i < places; ++i)
     {
+      const double half_width = NARROWEST / 2 + i * SEARCH_STEP;
       fit.erase(k);
       fit.insert(k, radii[k] - half_width);
       fit.insert(k + 1, radii[k] + half_width);
