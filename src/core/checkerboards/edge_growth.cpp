@@ -15,13 +15,16 @@ constexpr int PREDICTION_WINDOW = 3;  // nodes
 constexpr int MIN_CORNERS = 6;
 constexpr int ENOUGH = 16;  // for a plane through them
 
-/** @param ratio of the board's light to its dark, logarithm; 0 before the first corner, which says it. */
-bool lookAt(const Frame& frame, const LocalFrame& predicted, int sign, float& ratio, CornerLook& corner)
+/**
+ * @param ratio of the board's light to its dark, logarithm; 0 before the first corner, which says it.
+ * @return      that of this corner; 0 if there is none.
+ */
+float lookAt(const Frame& frame, const LocalFrame& predicted, int sign, float ratio, CornerLook& corner)
 {
   constexpr float MAX_DIFFERENCE = 0.35F;  // of the ratio
   if (!showsEdges(frame, predicted))
   {
-    return false;
+    return 0;
   }
   const PyramidView view(frame, squareHeight(predicted));
   CornerEdges edges = lookAtEdges(view, predicted, sign);
@@ -30,12 +33,11 @@ bool lookAt(const Frame& frame, const LocalFrame& predicted, int sign, float& ra
     // Of 648 boards that shadows, gloss, poles and sheets hide in part 528 -> 532 are found.
     edges = lookAtKnownEdges(view, predicted, sign, ratio);
   }
-  ratio = edges.ratio;
   corner.position = edges.position;
   corner.sign = sign;
   corner.contrast = edges.contrast;
   corner.correlation = edges.agreeing;
-  return edges.alike;
+  return edges.alike ? edges.ratio : 0;
 }
 
 /** Of the squares around a corner that alternate, the light ones: see CornerLook::sign. */
@@ -67,7 +69,7 @@ void lookAround(const Frame& frame, float ratio, Lattice& lattice)
       CornerLook corner;
       if (Lattice::admits(i, j) && !known.found(i, j) && beside &&
           predictNode(lattice, i, j, PREDICTION_WINDOW, predicted) &&
-          lookAt(frame, predicted, lattice.sign(i, j), ratio, corner))
+          lookAt(frame, predicted, lattice.sign(i, j), ratio, corner) > 0)
       {
         lattice.put(i, j, corner);
       }
@@ -79,8 +81,8 @@ void lookAround(const Frame& frame, float ratio, Lattice& lattice)
 bool growByEdges(const Frame& frame, const LocalFrame& seed, Lattice& lattice)
 {
   CornerLook corner;
-  float ratio = 0;
-  if (!lookAt(frame, seed, signAt(frame, seed), ratio, corner))
+  const float ratio = lookAt(frame, seed, signAt(frame, seed), 0, corner);
+  if (ratio <= 0)
   {
     return false;
   }

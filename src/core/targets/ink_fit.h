@@ -29,6 +29,7 @@ class InkFit
    * @param samples brightness and hue, from the centre outwards, the last one of what is around; must outlive this.
    * @param step    between them [px].
    * @param scale   pixels of these a pixel of the camera, which tells how wide its blur is.
+   * @param ground  on which the rings lie.
    */
   InkFit(const std::vector<cv::Vec3d>& samples, double step, double scale, Ground ground);
 
