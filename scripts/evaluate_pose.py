@@ -15,6 +15,7 @@ A set of boards on cylinders is evaluated another way: each board's position as 
 Leaves OUTPUT/report.md and what omr_position said, VARIANT.jsonl.
 """
 import argparse
+import glob
 import json
 import os
 import subprocess
@@ -211,7 +212,10 @@ def main():
     parser.add_argument('--references', action='store_true')
     arguments = parser.parse_args()
     if not os.path.isfile(os.path.join(arguments.set, 'truth.json')):
-        sys.exit('evaluate_pose: %s holds no truth.json' % arguments.set)
+        sets = sorted(glob.glob(os.path.join(arguments.set, '*', 'truth.json')))
+        names = [os.path.basename(os.path.dirname(path)) for path in sets]
+        sys.exit('evaluate_pose: %s holds no truth.json: give the folder of one set%s'
+                 % (arguments.set, ', of those in it: ' + ', '.join(names) if names else ''))
     pictures = read_truth(arguments.set)
     os.makedirs(arguments.output, exist_ok=True)
     boards = [board for picture in pictures for board in picture['checkerboards']]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "border.h"
@@ -19,17 +20,39 @@ namespace
 constexpr int REACH = 3;      // squares; with 4 the jump reaches the next board
 constexpr int FAR_REACH = 5;  // where the surface says to a tenth of a square where clear corners would lie
 
+/** One way to look across a gap. */
+struct Attempt
+{
+  LatticeModel::Terms terms;
+  float tolerance;  // squares
+  int reach;        // squares
+  float correlation;
+};
+
+// Where one attempt finds nothing the next is made: corners pulled by what hides their neighbours mislead the plain fit
+// over three squares, a robust one loses boards of few corners.
+constexpr std::array<Attempt, 4> ATTEMPTS = {{{LatticeModel::homography, 0.2F, REACH, 0.9F},
+                                              {LatticeModel::robust_homography, 0.2F, REACH, 0.9F},
+                                              {LatticeModel::homography, 0.3F, REACH, 0.9F},
+                                              {LatticeModel::homography, 0.1F, FAR_REACH, 0.95F}}};
+
+struct Find
+{
+  int row, col;
+  CornerLook corner;
+};
+
 /** Looks for a corner that no found corner need be beside of: more is asked of it. */
-bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeModel* model, float contrast,
-                   float tolerance, float min_correlation, int row, int col, CornerLook& corner)
+bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const std::optional<LatticeModel>& surface,
+                   const Attempt& attempt, float contrast, Find& find)
 {
   constexpr float MIN_CONTRAST_SHARE = 0.4F;
   LocalFrame predicted;
-  if (model != nullptr)
+  if (surface)
   {
-    predicted = model->frameAt(row, col);
+    predicted = surface->frameAt(find.row, find.col);
   }
-  else if (!predictNode(lattice, row, col, REACH + 2, predicted))
+  else if (!predictNode(lattice, find.row, find.col, REACH + 2, predicted))
   {
     return false;
   }
@@ -38,21 +61,21 @@ bool lookAcrossGap(const Lattice& lattice, CornerLooker& looker, const LatticeMo
     return false;
   }
   CornerQuery query;
-  query.sign = lattice.sign(row, col);
-  query.tolerance = tolerance;
+  query.sign = lattice.sign(find.row, find.col);
+  query.tolerance = attempt.tolerance;
   query.contrast = contrast;
-  query.correlation = min_correlation;
-  corner = looker.look(predicted, query);
-  if (!corner.found || corner.contrast < MIN_CONTRAST_SHARE * contrast)
+  query.correlation = attempt.correlation;
+  find.corner = looker.look(predicted, query);
+  if (!find.corner.found || find.corner.contrast < MIN_CONTRAST_SHARE * contrast)
   {
     return false;
   }
   const float least = 0.6F * squareHeight(predicted);
-  for (int i = row - 2; i <= row + 2; ++i)
+  for (int i = find.row - 2; i <= find.row + 2; ++i)
   {
-    for (int j = col - 2; j <= col + 2; ++j)
+    for (int j = find.col - 2; j <= find.col + 2; ++j)
     {
-      if (lattice.found(i, j) && length(lattice.at(i, j).position - corner.position) < least)
+      if (lattice.found(i, j) && length(lattice.at(i, j).position - find.corner.position) < least)
       {
         return false;
       }
@@ -94,101 +117,107 @@ bool hasMargin(const std::array<BorderLine, 4>& borders)
 {
   return std::any_of(borders.begin(), borders.end(), [](const BorderLine& border) { return border.ends(); });
 }
+/** How far a jump may go beyond each side, by Side: not across a border. */
+std::array<int, 4> reachBeyond(const Lattice& lattice, const Frame& frame, int reach)
+{
+  const std::array<BorderLine, 4> borders = bordersOf(lattice, frame);
+  const bool has_margin = hasMargin(borders);
+  std::array<int, 4> beyond = {};
+  for (const Side side : SIDES)
+  {
+    const bool ends = borders[side].ends() || (borders[side].endsBare() && !has_margin);
+    beyond[side] = ends ? 0 : reach;
+  }
+  return beyond;
+}
+
+bool isWhole(const Lattice& lattice, const std::array<int, 4>& reach)
+{
+  return lattice.count() == lattice.box.area() &&
+         std::all_of(reach.begin(), reach.end(), [](int squares) { return squares == 0; });
+}
+
+/** The lattice's surface, where one homography says where the next square is. */
+std::optional<LatticeModel> surfaceOf(const Lattice& lattice, LatticeModel::Terms terms)
+{
+  constexpr double MAX_RESIDUAL = 0.06;  // squares
+  LatticeModel model;
+  if (!model.fit(lattice, terms, 0))
+  {
+    return std::nullopt;
+  }
+  const cv::Rect& box = lattice.box;
+  const LocalFrame middle = model.frameAt(box.y + (box.height - 1) / 2., box.x + (box.width - 1) / 2.);
+  return model.rms() < MAX_RESIDUAL * squareHeight(middle) ? std::make_optional(model) : std::nullopt;
+}
+
+std::vector<Find> lookAcrossGaps(const Lattice& lattice, CornerLooker& looker,
+                                 const std::optional<LatticeModel>& surface, const Attempt& attempt,
+                                 const std::array<int, 4>& reach)
+{
+  const cv::Rect& box = lattice.box;
+  const float contrast = lattice.medianContrast();
+  std::vector<Find> finds;
+  for (int i = box.y - reach[top]; i < box.br().y + reach[bottom]; ++i)
+  {
+    for (int j = box.x - reach[left]; j < box.br().x + reach[right]; ++j)
+    {
+      Find find{i, j, {}};
+      if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j, attempt.reach) &&
+          lookAcrossGap(lattice, looker, surface, attempt, contrast, find))
+      {
+        finds.push_back(find);
+      }
+    }
+  }
+  return finds;
+}
+
+/** One find alone may be chance: another or a corner must be beside it. */
+void removeLone(const Lattice& lattice, std::vector<Find>& finds)
+{
+  const auto is_alone = [&](const Find& find) {
+    return !isWithinReach(lattice, find.row, find.col, 1) &&
+           std::none_of(finds.begin(), finds.end(), [&](const Find& other) {
+             return std::max(std::abs(other.row - find.row), std::abs(other.col - find.col)) == 1;
+           });
+  };
+  finds.erase(std::remove_if(finds.begin(), finds.end(), is_alone), finds.end());
+}
 }  // namespace
 
 void jumpGaps(Lattice& lattice, CornerLooker& looker)
 {
   constexpr int MAX_ROUNDS = 9;
   constexpr int MIN_CORNERS = 6;
-  // Where one attempt finds nothing the next is made: corners pulled by what hides their neighbours mislead the plain
-  // fit over three squares, a robust one loses boards of few corners.
-  struct Attempt
-  {
-    LatticeModel::Terms terms;
-    float tolerance;  // squares
-    int reach;        // squares
-    float correlation;
-  };
-  constexpr std::array<Attempt, 4> ATTEMPTS = {{{LatticeModel::homography, 0.2F, REACH, 0.9F},
-                                                {LatticeModel::robust_homography, 0.2F, REACH, 0.9F},
-                                                {LatticeModel::homography, 0.3F, REACH, 0.9F},
-                                                {LatticeModel::homography, 0.1F, FAR_REACH, 0.95F}}};
-  constexpr double MAX_RESIDUAL = 0.06;         // squares, at which one homography still says where the next square is
   constexpr float MIN_FAR_CORRELATION = 0.99F;  // of the lattice; below fences a far jump meets the next board
-  struct Find
+  std::size_t next = 0;
+  for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS && next < ATTEMPTS.size(); ++round)
   {
-    int row, col;
-    CornerLook corner;
-  };
-  std::size_t attempt = 0;
-  for (int round = 0; round < MAX_ROUNDS && lattice.count() >= MIN_CORNERS; ++round)
-  {
-    const cv::Rect box = lattice.box;
-    int reach[4] = {};
-    const std::array<BorderLine, 4> borders = bordersOf(lattice, looker.frame());
-    const bool has_margin = hasMargin(borders);
-    for (const Side side : SIDES)
-    {
-      const bool ends = borders[side].ends() || (borders[side].endsBare() && !has_margin);
-      reach[side] = ends ? 0 : ATTEMPTS[attempt].reach;
-    }
-    const bool is_closed = std::all_of(std::begin(reach), std::end(reach), [](int squares) { return squares == 0; });
-    if (is_closed && lattice.count() == box.area())
+    const Attempt& attempt = ATTEMPTS[next];
+    const std::array<int, 4> reach = reachBeyond(lattice, looker.frame(), attempt.reach);
+    if (isWhole(lattice, reach))
     {
       return;
     }
-    LatticeModel model;
-    const bool fits = model.fit(lattice, ATTEMPTS[attempt].terms, 0) &&
-                      model.rms() < MAX_RESIDUAL * squareHeight(model.frameAt(box.y + (box.height - 1) / 2.,
-                                                                              box.x + (box.width - 1) / 2.));
-    if (ATTEMPTS[attempt].reach > REACH && !(fits && latticeEvidence(lattice).correlation >= MIN_FAR_CORRELATION))
+    const std::optional<LatticeModel> surface = surfaceOf(lattice, attempt.terms);
+    if (attempt.reach > REACH && !(surface && latticeEvidence(lattice).correlation >= MIN_FAR_CORRELATION))
     {
       return;
     }
-    const float contrast = lattice.medianContrast();
-    std::vector<Find> finds;
-    for (int i = box.y - reach[top]; i < box.br().y + reach[bottom]; ++i)
+    std::vector<Find> finds = lookAcrossGaps(lattice, looker, surface, attempt, reach);
+    removeLone(lattice, finds);
+    if (finds.empty())
     {
-      for (int j = box.x - reach[left]; j < box.br().x + reach[right]; ++j)
-      {
-        Find find{i, j, {}};
-        if (Lattice::admits(i, j) && !lattice.found(i, j) && isWithinReach(lattice, i, j, ATTEMPTS[attempt].reach) &&
-            lookAcrossGap(lattice, looker, fits ? &model : nullptr, contrast, ATTEMPTS[attempt].tolerance,
-                          ATTEMPTS[attempt].correlation, i, j, find.corner))
-        {
-          finds.push_back(find);
-        }
-      }
+      ++next;
+      continue;
     }
-    // One alone may be chance: another find or a corner must be beside it.
-    const Lattice& known = lattice;
-    const auto is_alone = [&](const Find& find) {
-      for (int i = find.row - 1; i <= find.row + 1; ++i)
-      {
-        for (int j = find.col - 1; j <= find.col + 1; ++j)
-        {
-          if (known.found(i, j))
-          {
-            return false;
-          }
-        }
-      }
-      return std::none_of(finds.begin(), finds.end(), [&](const Find& other) {
-        const int distance = std::max(std::abs(other.row - find.row), std::abs(other.col - find.col));
-        return distance == 1;
-      });
-    };
-    finds.erase(std::remove_if(finds.begin(), finds.end(), is_alone), finds.end());
     for (const Find& find : finds)
     {
       lattice.put(find.row, find.col, find.corner);
     }
-    attempt = finds.empty() ? attempt + 1 : 0;
-    if (attempt == ATTEMPTS.size())
-    {
-      return;
-    }
     growLattice(lattice, looker, Lattice::SIZE * Lattice::SIZE);
+    next = 0;
   }
 }
 
