@@ -143,6 +143,102 @@ Votes countVotes(const RingFamily& family, const Voters& voters, const Votes& be
   addVotes(family, voters, preview, voters.size, votes);
   return votes;
 }
+
+/** A piece's surroundings as the search for a family sees them. */
+struct Surroundings
+{
+  explicit Surroundings(const Region& piece)
+      : side(std::max(piece.box.width, piece.box.height)),
+        origin(piece.box.x + (piece.box.width - 1) / 2., piece.box.y + (piece.box.height - 1) / 2.),
+        farthest(side * 2.5 + 10)
+  {
+  }
+
+  double side;         // of the piece's box [px]
+  cv::Point2d origin;  // its middle
+  double farthest;     // distance of a family's centre from there [px]
+};
+
+std::vector<Edgel> edgelsAround(EdgelMap& map, const cv::Rect& box, double side)
+{
+  const double margin = std::max(4., .25 * side);
+  std::vector<Edgel> edgels;
+  map.visit(box.x - margin, box.y - margin, box.x + box.width - 1 + margin, box.y + box.height - 1 + margin,
+            [&](const Edgel& edgel) { edgels.push_back(edgel); });
+  return edgels;
+}
+
+/** MAX_EDGELS of them at most, drawn by chance. */
+std::vector<Edgel> drawVoters(std::vector<Edgel> edgels, Random& random)
+{
+  if (edgels.size() > MAX_EDGELS)
+  {
+    for (std::size_t i = 0; i < MAX_EDGELS; ++i)
+    {
+      std::swap(edgels[i], edgels[i + random.below(edgels.size() - i)]);
+    }
+    edgels.resize(MAX_EDGELS);
+  }
+  return edgels;
+}
+
+/** Draws four edgels again and again, and keeps the family that most vote for; returns their score. */
+double drawFamily(const std::vector<Edgel>& voters, const Surroundings& around, Random& random, RingFamily& best_family)
+{
+  const Voters side_by_side(voters);
+  Votes best;
+  int draws = MAX_DRAWS;
+  for (int draw = 0; draw < draws; ++draw)
+  {
+    std::array<Edgel, 4> drawn;
+    for (Edgel& edgel : drawn)
+    {
+      edgel = voters[random.below(voters.size())];
+    }
+    RingFamily family;
+    if (!familyOf(drawn, around.origin, around.side / 2 + 1, family) ||
+        cv::norm(family.center - around.origin) >= around.farthest)
+    {
+      continue;
+    }
+    const Votes votes = countVotes(family, side_by_side, best);
+    if (votes.score() > best.score())
+    {
+      best = votes;
+      best_family = family;
+      // Enough to have drawn four inliers once with a probability of 95 %.
+      const double share = static_cast<double>(votes.inliers) / static_cast<double>(voters.size());
+      const double needed = std::log(.05) / std::log(1 - std::min(.99, share * share * share * share));
+      draws = static_cast<int>(std::clamp<double>(needed, MIN_DRAWS, MAX_DRAWS));
+    }
+  }
+  return best.score();
+}
+
+void refineFamily(const std::vector<Edgel>& edgels, const Surroundings& around, RingFamily& family)
+{
+  for (int round = 0; round < 2; ++round)
+  {
+    RingFamily refined = family;
+    if (!refineFamilyShape(edgels, around.origin, around.side / 2 + 1, refined) ||
+        cv::norm(refined.center - around.origin) > 1.2 * around.farthest)
+    {
+      return;
+    }
+    family = refined;
+  }
+}
+
+/** Radius, in the family's plane, of the circle around a box. */
+double radiusAround(const cv::Rect& box, const RingFamily& family)
+{
+  double radius = 0;
+  for (const cv::Point& corner : {box.tl(), box.br(), cv::Point(box.x, box.br().y), cv::Point(box.br().x, box.y)})
+  {
+    radius = std::max(radius, cv::norm(family.toPlane(cv::Point2d(corner))));
+  }
+  return radius;
+}
 }  // namespace
 
 std::vector<const Region*> findPieces(const std::vector<Region>& regions)
@@ -163,74 +259,21 @@ std::vector<const Region*> findPieces(const std::vector<Region>& regions)
 
 bool findArcSeed(EdgelMap& map, const Region& piece, RingSeed& seed, double& votes)
 {
-  const double side = std::max(piece.box.width, piece.box.height);
-  const double margin = std::max(4., .25 * side);
-  std::vector<Edgel> edgels;
-  map.visit(piece.box.x - margin, piece.box.y - margin, piece.box.x + piece.box.width - 1 + margin,
-            piece.box.y + piece.box.height - 1 + margin, [&](const Edgel& edgel) { edgels.push_back(edgel); });
+  const Surroundings around(piece);
+  const std::vector<Edgel> edgels = edgelsAround(map, piece.box, around.side);
   if (edgels.size() < MIN_EDGELS || isStraight(edgels))
   {
     return false;
   }
   Random random;
-  std::vector<Edgel> voters = edgels;
-  if (voters.size() > MAX_EDGELS)
-  {
-    for (std::size_t i = 0; i < MAX_EDGELS; ++i)
-    {
-      std::swap(voters[i], voters[i + random.below(voters.size() - i)]);
-    }
-    voters.resize(MAX_EDGELS);
-  }
-  const Voters side_by_side(voters);
-  const cv::Point2d origin(piece.box.x + (piece.box.width - 1) / 2., piece.box.y + (piece.box.height - 1) / 2.);
-  const double scale = side / 2 + 1;
-  const double farthest = side * 2.5 + 10;
-  Votes best;
-  int draws = MAX_DRAWS;
-  for (int draw = 0; draw < draws; ++draw)
-  {
-    std::array<Edgel, 4> drawn;
-    for (Edgel& edgel : drawn)
-    {
-      edgel = voters[random.below(voters.size())];
-    }
-    RingFamily family;
-    if (familyOf(drawn, origin, scale, family) && cv::norm(family.center - origin) < farthest)
-    {
-      const Votes support = countVotes(family, side_by_side, best);
-      if (support.score() > best.score())
-      {
-        best = support;
-        seed.family = family;
-        // Enough to have drawn four inliers once with a probability of 95 %.
-        const double share = static_cast<double>(support.inliers) / static_cast<double>(voters.size());
-        const double needed = std::log(.05) / std::log(1 - std::min(.99, share * share * share * share));
-        draws = static_cast<int>(std::clamp<double>(needed, MIN_DRAWS, MAX_DRAWS));
-      }
-    }
-  }
-  votes = best.score() / static_cast<double>(voters.size());
+  const std::vector<Edgel> voters = drawVoters(edgels, random);
+  votes = drawFamily(voters, around, random, seed.family) / static_cast<double>(voters.size());
   if (votes < MIN_SCORE)
   {
     return false;
   }
-  for (int round = 0; round < 2; ++round)
-  {
-    RingFamily refined = seed.family;
-    if (!refineFamilyShape(edgels, origin, scale, refined) || cv::norm(refined.center - origin) > 1.2 * farthest)
-    {
-      break;
-    }
-    seed.family = refined;
-  }
-  seed.radius = 0;
-  for (const cv::Point2d& corner : {cv::Point2d(piece.box.tl()), cv::Point2d(piece.box.br()),
-                                    cv::Point2d(piece.box.x, piece.box.y + piece.box.height),
-                                    cv::Point2d(piece.box.x + piece.box.width, piece.box.y)})
-  {
-    seed.radius = std::max(seed.radius, cv::norm(seed.family.toPlane(corner)));
-  }
+  refineFamily(edgels, around, seed.family);
+  seed.radius = radiusAround(piece.box, seed.family);
   return true;
 }
 
