@@ -37,7 +37,7 @@ struct Checkerboard
    * True: on all four sides the end of the board, dark rim squares against a light margin, was seen. False: a side is
    * hidden or has no light margin, or the board touches or leaves the picture; it may then have more rows or columns
    * than were found. False as well where a band right across the board hides two lines of inner corners side by side:
-   * it may be the gap between two boards.
+   * it may be the gap between two boards. False where too much light has parted the squares: a rim may be gone.
    */
   bool size_certain = true;
 };

@@ -3,26 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <opencv2/imgproc.hpp>
-#include <optional>
+#include <opencv2/core.hpp>
+#include <utility>
 
-#include "board_judgement.h"
+#include "board_search.h"
 #include "board_sections.h"
-#include "border.h"
 #include "checkerboard_order.h"
 #include "corner_look.h"
 #include "corners.h"
-#include "edge_growth.h"
-#include "edge_line.h"
-#include "edge_reading.h"
+#include "eroded_squares.h"
 #include "groups.h"
+#include "grown_squares.h"
 #include "lattice.h"
-#include "lattice_evidence.h"
-#include "lattice_extent.h"
-#include "lattice_gaps.h"
-#include "lattice_growth.h"
 #include "lattice_seam.h"
 #include "regularity.h"
+#include "resized_part.h"
 #include "saddle_groups.h"
 #include "search_map.h"
 #include "size_certainty.h"
@@ -31,187 +26,26 @@ namespace omr
 {
 namespace
 {
-constexpr float MAX_GROWING_DOUBT = 2.6F;
-constexpr float MAX_GROWN_DOUBT = 2.3F;  // from 36 corners on
-constexpr int MIN_CORNERS = 6;           // within reach of one another, or it is no lattice
-constexpr int UNLIMITED = Lattice::SIZE * Lattice::SIZE;
-
-struct Candidate
+void moveToImage(const ResizedPart& part, Lattice& lattice)
 {
-  Lattice lattice;
-  std::array<SideEvidence, 4> sides;
-  std::vector<cv::Point2f> outline;
-  std::optional<Checkerboard> finished;
-};
-
-void noteFailure(const Lattice& lattice, int failures, SearchMap& map)
-{
-  const float height = squareHeight(lattice.seedFrame());
-  map.addFailure(lattice.seedFrame().node, height, failures);
   for (int i = lattice.box.y; i < lattice.box.br().y; ++i)
   {
     for (int j = lattice.box.x; j < lattice.box.br().x; ++j)
     {
-      if (lattice.found(i, j))
-      {
-        map.addFailure(lattice.at(i, j).position, height, failures);
-      }
+      lattice.at(i, j).position = cv::Point2f(part.toImage(lattice.at(i, j).position));
     }
   }
 }
 
-enum class Growth
-{
-  none,      // too few corners
-  doubtful,  // given up
-  grown
-};
-
-/** Grows a lattice from the seed, giving up as early as clutter shows. @return what it is. */
-Growth growFromSeed(const Seed& seed, CornerLooker& looker, Lattice& lattice, SearchMap& map)
-{
-  CornerQuery query;
-  query.tolerance = 0.3F;
-  query.search = !seed.is_saddle_point;
-  const CornerLook corner = looker.look(seed.frame, query);
-  if (!corner.found)
-  {
-    map.addFailure(seed.frame.node, squareHeight(seed.frame));
-    return Growth::none;
-  }
-  lattice.start(seed.frame, corner);
-  // Lattices on clutter end at the first of these stages: they cost 20 looks instead of 500.
-  for (int count = 9; count < UNLIMITED; count *= 2)
-  {
-    growLattice(lattice, looker, count);
-    if (lattice.count() < MIN_CORNERS)
-    {
-      map.addFailure(seed.frame.node, squareHeight(seed.frame));
-      return Growth::none;
-    }
-    Evidence evidence = latticeEvidence(lattice);
-    evidence.fill = 1;  // holes are not judged before the gaps are jumped
-    if (evidence.doubt() > (lattice.count() < 36 ? MAX_GROWING_DOUBT : MAX_GROWN_DOUBT) || isOvergrown(lattice))
-    {
-      noteFailure(lattice, 1, map);
-      return Growth::doubtful;
-    }
-    if (lattice.count() < count)
-    {
-      break;
-    }
-  }
-  return Growth::grown;
-}
-
-/** Settles a grown lattice by its corners. @param sides receive what is seen of its sides. @param sections receive what
- * may be a part of a board. */
-bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std::array<SideEvidence, 4>& sides,
-                     BoardSections& sections)
-{
-  if (!mayBePart(lattice, looker))
-  {
-    noteFailure(lattice, 1, map);
-    return false;
-  }
-  jumpGaps(lattice, looker);
-  fillHoles(lattice, looker);
-  splitAtBorders(lattice, looker.frame());
-  const std::vector<Seam> seams = splitAtSeams(lattice);
-  dropOutliers(lattice);
-  sides = settleExtent(lattice, looker);
-  settleRims(looker.frame(), lattice, sides);
-  for (const Seam& seam : seams)
-  {
-    // The squares of the next board look as if this one went on.
-    if (sides[seam.beyond] == SideEvidence::none && lineIndex(lattice, seam.beyond, 1) == seam.line)
-    {
-      sides[seam.beyond] = SideEvidence::rim;
-    }
-  }
-  if (!isBoard(lattice, sides))
-  {
-    sections.add(lattice);
-    noteFailure(lattice, 2, map);
-    return false;
-  }
-  return true;
-}
-
-/** The same by the edges of its squares, which say what corners do not under hard shadows; a border where both say so.
- */
-bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence, 4>& sides)
-{
-  if (!readByEdges(frame, lattice, sides) || !isBoardOfEdges(lattice, sides))
-  {
-    return false;
-  }
-  fitReadCorners(frame, lattice);
-  for (const Side side : SIDES)
-  {
-    if (sides[side] == SideEvidence::doubtful_border && lookAtBorder(lattice, frame, side, 1).ends() &&
-        rimBeyond(lattice, frame, side) == 0)
-    {
-      sides[side] = SideEvidence::border;
-    }
-  }
-  return true;
-}
-
-/** Adds a board; of boards in one place the one with most corners stays. */
-void addCandidate(Candidate&& candidate, std::vector<Candidate>& candidates)
-{
-  constexpr int MAX_SHARED = 2;  // corners
-  const auto shares_place = [&](const Candidate& other) {
-    return countOn(candidate.lattice, other.outline) > MAX_SHARED ||
-           countOn(other.lattice, candidate.outline) > MAX_SHARED;
-  };
-  const bool beaten = std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
-    return other.lattice.count() >= candidate.lattice.count() && shares_place(other);
-  });
-  if (!beaten)
-  {
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), shares_place), candidates.end());
-    candidates.push_back(std::move(candidate));
-  }
-}
-
-void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap& map,
-                std::vector<Candidate>& candidates, BoardSections& sections)
-{
-  Lattice lattice;
-  for (const Seed& seed : seeds)
-  {
-    if (looker.looksLeft() == 0)
-    {
-      return;
-    }
-    const int looks = looker.looksLeft();
-    if (!map.isOpen(seed.frame.node))
-    {
-      continue;
-    }
-    std::array<SideEvidence, 4> sides;
-    const Growth growth = growFromSeed(seed, looker, lattice, map);
-    const bool settled = (growth == Growth::grown && settleByCorners(lattice, looker, map, sides, sections)) ||
-                         ((growth != Growth::none || growByEdges(looker.frame(), seed.frame, lattice)) &&
-                          settleByEdges(lattice, looker.frame(), sides));
-    if (!settled)
-    {
-      continue;
-    }
-    Candidate candidate{lattice, sides, boardOutline(lattice), {}};
-    map.close(candidate.outline);
-    looker.setLooksLeft(looks);  // only looks in vain count
-    addCandidate(std::move(candidate), candidates);
-  }
-}
-
-Checkerboard finish(const Candidate& candidate, const Frame& frame, const RegionMap& regions)
+/** @param part that the candidate was found in, with its frame. @param frame, regions of the image. */
+Checkerboard finish(const BoardCandidate& candidate, const Frame& part_frame, const ResizedPart& part,
+                    const Frame& frame, const RegionMap& regions)
 {
   Lattice lattice = candidate.lattice;  // of the search, which may go on with it
   const bool joined = hasSeam(lattice);
-  const std::vector<bool> seen = refineCorners(frame, lattice);
+  const std::vector<bool> seen = refineCorners(part_frame, lattice);
+  const bool certain = !joined && isSizeCertain(part_frame, lattice, seen, candidate.sides);
+  moveToImage(part, lattice);
   Checkerboard board = orderCheckerboard(lattice, seen);
   const Regularity regularity =
       checkRegularity(squareCorners(lattice), board.rows, board.cols, regions, frame.grey.front());
@@ -221,37 +55,65 @@ Checkerboard finish(const Candidate& candidate, const Frame& frame, const Region
                            static_cast<float>(frame.raw_grey.rows - 1));
   const bool inside = std::all_of(board.corners.begin(), board.corners.end(),
                                   [&](const auto& corner) { return picture.contains(corner); });
-  board.size_certain = inside && !joined && isSizeCertain(frame, lattice, seen, candidate.sides);
+  board.size_certain = inside && certain;
   return board;
 }
 
-std::vector<Checkerboard> finishAll(std::vector<Candidate>& candidates, const Frame& frame, const RegionMap& regions)
+/**
+ * Finds boards whose squares have parted in too much light, where these are grown until they touch. Their size is never
+ * certain, as squares of the rim may be gone.
+ */
+void findEroded(const ErodedPart& eroded, const Frame& frame, const RegionMap& regions, int looks,
+                std::vector<BoardCandidate>& candidates)
+{
+  ResizedPart part;
+  const Frame grown = growDarkSquares(frame, eroded, part);
+  SearchMap map(grown.raw_grey.size());
+  CornerLooker looker(grown, looks);
+  std::vector<BoardCandidate> found;
+  BoardSections sections;
+  findBoards(groupSaddlePoints(grown, 0, false, map), looker, map, found, sections);
+  for (BoardCandidate& candidate : found)
+  {
+    candidate.finished = finish(candidate, grown, part, frame, regions);
+    candidate.finished->size_certain = false;
+    if (!leavesRemnants(frame, *candidate.finished))
+    {
+      moveToImage(part, candidate.lattice);
+      candidate.outline = boardOutline(candidate.lattice);
+      addCandidate(std::move(candidate), candidates);
+    }
+  }
+}
+
+std::vector<Checkerboard> finishAll(std::vector<BoardCandidate>& candidates, const Frame& frame,
+                                    const RegionMap& regions)
 {
   cv::parallel_for_(cv::Range(0, static_cast<int>(candidates.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i)
     {
       if (!candidates[i].finished)
       {
-        candidates[i].finished = finish(candidates[i], frame, regions);
+        candidates[i].finished = finish(candidates[i], frame, {}, frame, regions);
       }
     }
   });
   std::vector<Checkerboard> boards;
   boards.reserve(candidates.size());
-  for (const Candidate& candidate : candidates)
+  for (const BoardCandidate& candidate : candidates)
   {
     boards.push_back(*candidate.finished);
   }
   return boards;
 }
 
-std::vector<Checkerboard> finishSections(const BoardSections& sections, const std::vector<Candidate>& boards,
+std::vector<Checkerboard> finishSections(const BoardSections& sections, const std::vector<BoardCandidate>& boards,
                                          const Frame& frame, const RegionMap& regions)
 {
   std::vector<std::vector<cv::Point2f>> outlines;
   std::transform(boards.begin(), boards.end(), std::back_inserter(outlines),
-                 [](const Candidate& board) { return board.outline; });
-  std::vector<Candidate> candidates;
+                 [](const BoardCandidate& board) { return board.outline; });
+  std::vector<BoardCandidate> candidates;
   for (const Lattice& lattice : sections.beside(outlines))
   {
     candidates.push_back(
@@ -271,8 +133,9 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
   // -> 31. Of 268 boards found at the first two none takes more looks in vain, but one with a wrong size; at the others
   // a tenth finds as many as a third and takes half of the time on clutter.
   constexpr std::array<double, 4> SADDLE_SHARES = {.7, .4, .1, .1};
+  constexpr double ERODED_SHARE = .2;  // of each part in too much light
   SearchMap map(frame.raw_grey.size());
-  std::vector<Candidate> candidates;
+  std::vector<BoardCandidate> candidates;
   BoardSections found_sections;
   const auto search = [&](const std::vector<Seed>& seeds, double share) {
     CornerLooker looker(frame, static_cast<int>(share * settings.checkerboard_looks));
@@ -291,6 +154,13 @@ std::vector<Checkerboard> findCheckerboards(const Frame& frame, const RegionMap&
   {
     const bool faint = level > 0 && candidates.empty();  // half the size has half the noise
     search(groupSaddlePoints(frame, level, faint, map), SADDLE_SHARES[level]);
+  }
+  if (settings.checkerboard_second_look)
+  {
+    for (const ErodedPart& part : findErodedParts(frame, map))
+    {
+      findEroded(part, frame, regions, static_cast<int>(ERODED_SHARE * settings.checkerboard_looks), candidates);
+    }
   }
   if (sections != nullptr)
   {
