@@ -209,6 +209,7 @@ bool toPart(const Frame& frame, std::vector<Place>& group, ErodedPart& part)
 {
   constexpr std::size_t MIN_PLACES = 4;
   constexpr float MIN_SHAPE = 0.73F;
+  constexpr float MIN_SEEN = 4;  // px of a square's side; below it the pixels shape it
   if (group.size() < MIN_PLACES || medianOf(group, [](const Place& place) { return place.shape; }) < MIN_SHAPE)
   {
     return false;
@@ -227,7 +228,8 @@ bool toPart(const Frame& frame, std::vector<Place>& group, ErodedPart& part)
   const int around = cvCeil(SURROUNDINGS * middle->height);
   box = cv::Rect(box.tl() - cv::Point(around, around), box.br() + cv::Point(around, around));
   part.area = box & cv::Rect({}, frame.raw_grey.size());
-  return static_cast<float>(std::max(box.width, box.height)) <= MAX_PART_SIDE * middle->height;
+  return part.width * middle->height >= MIN_SEEN &&
+         static_cast<float>(std::max(box.width, box.height)) <= MAX_PART_SIDE * middle->height;
 }
 }  // namespace
 
