@@ -81,6 +81,25 @@ TEST(LatticeExtent, aBorderIsJudgedByAllOfItsPlaces)
   EXPECT_EQ(omr::SideEvidence::rim, sides[omr::top]);
 }
 
+TEST(LatticeExtent, aBorderBesideSquaresThatGoOnIsDoubtful)
+{
+  const cv::Matx33d truth = omr::test::boardHomography(6, 12, {320, 240}, 36, 4);
+  const auto at = [&](double x, double y) { return omr::test::project(truth, x, y); };
+  Render render({640, 480}, cv::Scalar::all(90));
+  render.addBoard(6, 12, truth);
+  render.addPolygon({at(-0.5, 5), at(8.5, 5), at(8.5, 9), at(-0.5, 9)},
+                    cv::Scalar::all(215));  // as light as the margin
+  const Frame frame = omr::makeFrame(render.picture());
+  CornerLooker looker(frame, 10000);
+  const LocalFrame seed{at(5, 3), at(6, 3) - at(5, 3), at(5, 4) - at(5, 3)};
+  Lattice lattice = omr::test::grow(looker, seed);
+  const auto sides = settleExtent(lattice, looker);
+  ASSERT_EQ(cv::Size(11, 4), lattice.box.size());
+  ASSERT_TRUE(omr::lookAtBorder(lattice, frame, omr::bottom, 1).ends());
+  EXPECT_EQ(omr::SideEvidence::doubtful_border, sides[omr::bottom]);
+  EXPECT_EQ(omr::SideEvidence::border, sides[omr::top]);
+}
+
 TEST(LatticeGaps, aClearLatticeGoesOnBehindAWideThing)
 {
   const cv::Matx33d truth = omr::test::boardHomography(6, 10, {320, 240}, 30, 12, 10);

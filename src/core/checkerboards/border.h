@@ -23,6 +23,9 @@ struct BorderLine
   /** The board ends at this line, with a margin beyond. */
   bool ends() const;
 
+  /** In some places squares go on across the line, so that it may be the edge of what covers the others. */
+  bool isDoubtful() const;
+
   /** The board ends at this line, without a margin; or a thing that lies on it has its edge here. */
   bool endsBare() const;
 

@@ -127,7 +127,8 @@ SideEvidence sideEvidence(const Lattice& lattice, const Frame& frame, Side side,
     // Beside a complete line of corners one corner of a target or of the next board looks like a rim that goes on: 20
     // of 1409 boards. Two are the rim beyond a label: of 93 boards with one drawn on them 19 were certain and wrong.
     const int least = share < 1 ? 1 : 2;
-    return rimBeyond(lattice, frame, side) >= least ? SideEvidence::doubtful_border : SideEvidence::border;
+    const bool is_doubtful = border.isDoubtful() || rimBeyond(lattice, frame, side) >= least;
+    return is_doubtful ? SideEvidence::doubtful_border : SideEvidence::border;
   }
   if (border.endsBare())
   {
