@@ -74,6 +74,80 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
   return std::min({.5 * inside, .5 * outside, std::max(2., bend)});
 }
 
+/** Steps of logarithmic colour across a boundary, in every direction. */
+struct Steps
+{
+  AngleBins seen = 0;
+  std::array<LogColor, ANGLES> whole;  // from ring to ring
+  std::array<LogColor, ANGLES> local;  // at the boundary
+};
+
+Steps stepsAcross(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
+{
+  const double reach = stepReach(radii, k);
+  const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
+  const int outer = static_cast<int>(std::lround((radii[k] + reach) / profile.step));
+  Steps steps;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    LogColor before;
+    LogColor after;
+    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before, RingPart::outer_rim) &&
+        ringColor(profile, radii, k + 1, angle, after, RingPart::inner_rim))
+    {
+      steps.local[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
+      steps.whole[angle] = after - before;
+      steps.seen |= AngleBins{1} << angle;
+    }
+  }
+  return steps;
+}
+
+/** Sets what the steps in some directions have in common: median, its length, and how much they run alike. */
+void setChange(const std::array<LogColor, ANGLES>& steps, AngleBins directions, Boundary& boundary)
+{
+  std::array<Values, 3> values;
+  int count = 0;
+  LogColor sum;
+  double length_sum = 0;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    if ((directions >> angle & 1) != 0)
+    {
+      sum += steps[angle];
+      length_sum += cv::norm(steps[angle]);
+      for (int c = 0; c < 3; ++c)
+      {
+        values[c][count] = steps[angle][c];
+      }
+      ++count;
+    }
+  }
+  boundary.change = LogColor(median(values[0], count), median(values[1], count), median(values[2], count));
+  boundary.contrast = cv::norm(boundary.change);
+  boundary.coherence = length_sum > 0 ? cv::norm(sum) / length_sum : 0;
+}
+
+/** Directions in which the steps are the boundary's. */
+AngleBins agreeingDirections(const Steps& steps, const Boundary& boundary)
+{
+  const double squared = boundary.contrast * boundary.contrast;
+  AngleBins agreeing = 0;
+  for (int angle = 0; angle < ANGLES; ++angle)
+  {
+    const double along = steps.whole[angle].dot(boundary.change);
+    const double here = steps.local[angle].dot(boundary.change);
+    const bool is_alike = along > .4 * squared && along < 2.5 * squared && here > .35 * squared;
+    // Gloss weakens a step, and lets its hue and its edge.
+    const bool is_veiled = (boundary.supported >> angle & 1) != 0 && along > .15 * squared && here > .15 * squared &&
+                           along > .85 * boundary.contrast * cv::norm(steps.whole[angle]);
+    if ((steps.seen >> angle & 1) != 0 && (is_alike || is_veiled))
+    {
+      agreeing |= AngleBins{1} << angle;
+    }
+  }
+  return agreeing;
+}
 }  // namespace
 
 double edgeTolerance(double radius)
@@ -92,70 +166,23 @@ std::vector<double> radiiOf(const std::vector<Boundary>& boundaries)
 Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
                          std::size_t k)
 {
-  const double reach = stepReach(radii, k);
-  const int inner = static_cast<int>(std::lround((radii[k] - reach) / profile.step));
-  const int outer = static_cast<int>(std::lround((radii[k] + reach) / profile.step));
-  std::array<LogColor, ANGLES> steps;
-  std::array<LogColor, ANGLES> local_steps;
+  const double tolerance = edgeTolerance(radii[k]);
+  const Steps steps = stepsAcross(profile, radii, k);
   Boundary boundary;
   boundary.radius = radii[k];
-  boundary.supported = support.at(radii[k], edgeTolerance(radii[k]));
-  for (int angle = 0; angle < ANGLES; ++angle)
-  {
-    LogColor before;
-    LogColor after;
-    if (outer < profile.inside[angle] && ringColor(profile, radii, k, angle, before, RingPart::outer_rim) &&
-        ringColor(profile, radii, k + 1, angle, after, RingPart::inner_rim))
-    {
-      local_steps[angle] = profile.ray(angle)[outer] - profile.ray(angle)[inner];
-      steps[angle] = after - before;
-      boundary.seen |= AngleBins{1} << angle;
-    }
-  }
+  boundary.supported = support.at(radii[k], tolerance);
+  boundary.seen = steps.seen;
   if (bits(boundary.seen) < leastDirections(profile))
   {
     return boundary;
   }
   // What hides a boundary has an edge elsewhere.
   const AngleBins edged = boundary.seen & boundary.supported;
-  const AngleBins typical = bits(edged) >= MIN_EDGED ? edged : boundary.seen;
-  std::array<Values, 3> values;
-  int count = 0;
-  LogColor sum;
-  double length_sum = 0;
-  for (int angle = 0; angle < ANGLES; ++angle)
-  {
-    if ((typical >> angle & 1) != 0)
-    {
-      sum += steps[angle];
-      length_sum += cv::norm(steps[angle]);
-      for (int c = 0; c < 3; ++c)
-      {
-        values[c][count] = steps[angle][c];
-      }
-      ++count;
-    }
-  }
-  boundary.change = LogColor(median(values[0], count), median(values[1], count), median(values[2], count));
-  boundary.contrast = cv::norm(boundary.change);
-  boundary.coherence = length_sum > 0 ? cv::norm(sum) / length_sum : 0;
-  const double squared = boundary.contrast * boundary.contrast;
-  for (int angle = 0; angle < ANGLES; ++angle)
-  {
-    const double along = steps[angle].dot(boundary.change);
-    const double here = local_steps[angle].dot(boundary.change);
-    const bool is_alike = along > .4 * squared && along < 2.5 * squared && here > .35 * squared;
-    // Gloss weakens a step, and lets its hue and its edge.
-    const bool is_veiled = (boundary.supported >> angle & 1) != 0 && along > .15 * squared && here > .15 * squared &&
-                           along > .85 * boundary.contrast * cv::norm(steps[angle]);
-    if ((boundary.seen >> angle & 1) != 0 && (is_alike || is_veiled))
-    {
-      boundary.agreeing |= AngleBins{1} << angle;
-    }
-  }
+  setChange(steps.whole, bits(edged) >= MIN_EDGED ? edged : boundary.seen, boundary);
+  boundary.agreeing = agreeingDirections(steps, boundary);
   // Where one channel rises as another falls, noise and light decide which is the stronger. So the sign of an edgel
   // tells nothing where the colours agree: of the field's targets 157 and 157 are found instead of 155 and 155.
-  boundary.supported |= boundary.agreeing & support.either(radii[k], edgeTolerance(radii[k]));
+  boundary.supported |= boundary.agreeing & support.either(radii[k], tolerance);
   boundary.agreement = bits(boundary.agreeing) / static_cast<double>(bits(boundary.seen));
   return boundary;
 }
