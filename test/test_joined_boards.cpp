@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "checkerboards/checkerboards.h"
+#include "checkerboards/lattice_seam.h"
+#include "lattices.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"
@@ -135,6 +138,20 @@ TEST(CoveredBoards, theWindowOfAMatIsNoMargin)
     EXPECT_EQ(7, boards[0].rows) << grey;
     EXPECT_FALSE(boards[0].size_certain) << grey;
   }
+}
+
+TEST(LatticeSeam, isWhereAllLinesJumpAlike)
+{
+  // By how much the corners of each row lie beside their places, on one half of the lattice [squares].
+  const auto has_seam = [](const std::array<double, 5>& jumps) {
+    return omr::hasSeam(omr::test::latticeOf(5, 13, [&](int col, int row) {
+      return cv::Point2f(static_cast<float>(20 * (col + (col > 6 ? jumps[row] : 0))), static_cast<float>(20 * row));
+    }));
+  };
+  EXPECT_TRUE(has_seam({0.12, 0.12, 0.12, 0.12, 0.12}));
+  EXPECT_TRUE(has_seam({0.12, 0.11, 0.12, 0.13, 0.12}));
+  EXPECT_FALSE(has_seam({0.12, 0.35, -0.2, 0.13, -0.1}));
+  EXPECT_FALSE(has_seam({0, 0, 0, 0, 0}));
 }
 
 int main(int argc, char** argv)
