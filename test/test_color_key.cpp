@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 using omr::LinearColor;
-using omr::readColorKey;
 
 namespace
 {
@@ -18,12 +17,24 @@ std::vector<omr::ColorMeasurement> ways(const std::vector<std::vector<LinearColo
   return result;
 }
 
+/** Letters of rings that do not lie close to circles. */
+std::string readColorKey(const std::vector<omr::ColorMeasurement>& measurements, const std::vector<bool>& seen,
+                         bool is_sharp)
+{
+  return omr::readColorKey(measurements, seen, is_sharp, false).letters;
+}
+
 /** All rings are seen, measured in one way, and sharp. */
-std::string readColorKey(std::vector<LinearColor> rings, const LinearColor& around)
+omr::KeyReading readRings(std::vector<LinearColor> rings, const LinearColor& around)
 {
   const std::vector<bool> seen(rings.size(), true);
   rings.push_back(around);
-  return omr::readColorKey(ways({rings}), seen, true);
+  return omr::readColorKey(ways({rings}), seen, true, false);
+}
+
+std::string readColorKey(const std::vector<LinearColor>& rings, const LinearColor& around)
+{
+  return readRings(rings, around).letters;
 }
 
 const LinearColor WHITE(.8, .8, .8);
@@ -187,6 +198,41 @@ TEST(ColorKey, greyIsNoGreen)
                                           LinearColor(.104, .257, .152), LinearColor(.095, .111, .29),
                                           LinearColor(.398, .076, .087)};
   EXPECT_EQ("?RGBR", readColorKey(rings, LinearColor(.671, .625, .658)));
+}
+
+TEST(ColorKey, clearLettersMayExplainCloseRingsWorse)
+{
+  // WRB below the shadows of bars, as seen in a path-traced scene.
+  const std::vector<LinearColor> rings = {LinearColor(.098, .123, .124), LinearColor(.09, .022, .018),
+                                          LinearColor(.034, .047, .134), LinearColor(.259, .286, .219)};
+  const auto read = [&](bool is_close) {
+    return omr::readColorKey(ways({rings}), std::vector<bool>(3, true), false, is_close);
+  };
+  EXPECT_EQ("???", read(false).letters);
+  EXPECT_EQ("WRB", read(true).letters);
+  EXPECT_FALSE(read(true).is_certain);
+}
+
+TEST(ColorKey, aMixtureOfTwoRingsIsNotCertain)
+{
+  EXPECT_TRUE(readRings({RED, WHITE, GREEN}, WHITE).is_certain);
+  EXPECT_FALSE(readRings({RED, .6 * BLUE + .4 * BLACK, GREEN}, WHITE).is_certain);
+  EXPECT_FALSE(readRings({RED, .5 * RED + .5 * GREEN, BLUE}, WHITE).is_certain);
+}
+
+TEST(ColorKey, nothingIsCertainBehindHaze)
+{
+  const auto behind = [](double haze) {
+    std::vector<LinearColor> rings = {RED, WHITE, GREEN, BLUE};
+    for (LinearColor& ring : rings)
+    {
+      ring = (1 - haze) * ring + LinearColor::all(.8 * haze);
+    }
+    return readRings(rings, WHITE);
+  };
+  EXPECT_TRUE(behind(.1).is_certain);
+  EXPECT_EQ("RWGB", behind(.3).letters);
+  EXPECT_FALSE(behind(.3).is_certain);
 }
 
 int main(int argc, char** argv)

@@ -32,14 +32,12 @@ std::string letters(const omr::RingProfile& profile, const std::vector<double>& 
   {
     colors.emplace_back(omr::linearLight(color[2]), omr::linearLight(color[1]), omr::linearLight(color[0]));
   }
-  return omr::readColorKey({[&] { return colors; }}, std::vector<bool>(radii.size(), true), true);
+  return omr::readColorKey({[&] { return colors; }}, std::vector<bool>(radii.size(), true), true, false).letters;
 }
 
-/** Four grey rings behind a blur of 1 px, of which the third and the fourth differ. @param step [grey levels] */
-omr::RingProfile fourRings(double step)
+/** Grey rings behind a blur of 1 px. @param brightness of each, and of what is around them [grey levels] */
+omr::RingProfile greyRings(const std::vector<double>& radii, const std::vector<double>& brightness)
 {
-  const std::vector<double> radii = {24, 28, 32, 36};
-  const std::vector<double> brightness = {200, 60, 160, 160 - step, 60};
   omr::RingProfile profile;
   profile.step = .5;
   profile.count = 80;
@@ -58,6 +56,12 @@ omr::RingProfile fourRings(double step)
     profile.color.col(sample).setTo(cv::Scalar::all(std::log(value + omr::DARK_LEVEL)));
   }
   return profile;
+}
+
+/** Four of which the third and the fourth differ. @param step [grey levels] */
+omr::RingProfile fourRings(double step)
+{
+  return greyRings({24, 28, 32, 36}, {200, 60, 160, 160 - step, 60});
 }
 }  // namespace
 
@@ -191,6 +195,32 @@ TEST(RingDeblur, inksThatExplainNarrowRingsHideNone)
   EXPECT_TRUE(omr::hidesRings(candidate)) << "two rings are one";
   candidate.is_explained = true;
   EXPECT_FALSE(omr::hidesRings(candidate));
+}
+
+TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
+{
+  omr::RingCandidate candidate;
+  candidate.visible = 1;
+  const auto hides = [&](double ripple, const std::vector<double>& radii, bool is_certain) {
+    omr::RingProfile profile = greyRings(radii, {200, 60, 200, 60, 200});
+    for (int sample = 0; sample < profile.count; ++sample)
+    {
+      profile.grey.col(sample) += cv::Scalar::all(sample % 4 < 2 ? ripple : -ripple);
+    }
+    candidate.rings.radii = radii;
+    candidate.is_certain = is_certain;
+    candidate.profile = std::make_shared<omr::RingProfile>(profile);
+    return omr::hidesRings(candidate);
+  };
+  const std::vector<double> even = {4, 8, 12, 16};
+  const std::vector<double> uneven = {4, 8, 14, 18};
+  EXPECT_FALSE(hides(0, even, false));
+  EXPECT_TRUE(hides(10, even, false));
+  EXPECT_FALSE(hides(10, even, true));
+  EXPECT_TRUE(hides(10, uneven, true)) << "a ring that is wider may be two";
+  EXPECT_TRUE(hides(20, even, true));
+  candidate.visible = .8;
+  EXPECT_TRUE(hides(10, even, true)) << "something may hide them";
 }
 
 int main(int argc, char** argv)

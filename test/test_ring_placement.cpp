@@ -177,6 +177,28 @@ TEST(RingPlacement, whatThePixelsDoNotPlaceIsNoTarget)
   EXPECT_EQ(0U, omr::readTargets(cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90)), {candidate}, 3).size());
 }
 
+TEST(RingPlacement, ofSmallRingsThatAreLessClearAllAreReadAndOneHasAHue)
+{
+  const auto isTarget = [](const std::string& colors, double evidence) {
+    TargetScene scene;
+    scene.colors = colors;
+    scene.radii = {4.5, 9, 13.5};
+    scene.sheet_half_side = 20;
+    const cv::Mat image = renderTarget(scene);
+    omr::EdgelMap map(image);
+    RingFamily family;
+    family.center = projectedCenter(scene);
+    omr::RingCandidate candidate;
+    EXPECT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+    candidate.evidence = evidence;
+    return !omr::readTargets(image, {candidate}, 3).empty();
+  };
+  EXPECT_TRUE(isTarget("PWP", .97));
+  EXPECT_FALSE(isTarget("PWP", .9)) << "eyes and lenses have rings, too";
+  EXPECT_TRUE(isTarget("BWP", .9));
+  EXPECT_FALSE(isTarget("BWP", .8));
+}
+
 TEST(RingPlacement, needsNoBoundaries)
 {
   const TargetScene scene = tiltedScene();

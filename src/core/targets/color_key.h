@@ -22,6 +22,13 @@ double linearLight(double grey_level);
  */
 using ColorMeasurement = std::function<std::vector<LinearColor>()>;
 
+/** What the key tells of rings. */
+struct KeyReading
+{
+  std::string letters;      ///< '?' for what is not known
+  bool is_certain = false;  ///< whether none comes near to another letter, as mixtures of two rings do
+};
+
 /**
  * Reads the colours of rings by the paper's key (section 3.3): W white, P black, R red, G green, B blue, ? unknown.
  *
@@ -36,8 +43,10 @@ using ColorMeasurement = std::function<std::vector<LinearColor>()>;
  * @param ways     are taken in turn until a key explains one well: nearly always the first.
  * @param seen     of each ring: false where something hides it; it is '?' and tells nothing.
  * @param is_sharp whether the rings are too wide for the blur to pale them, so that gloss does where they are pale.
+ * @param is_close whether their edges lie close to circles: their letters may explain them worse if they are clear.
  */
-std::string readColorKey(const std::vector<ColorMeasurement>& ways, const std::vector<bool>& seen, bool is_sharp);
+KeyReading readColorKey(const std::vector<ColorMeasurement>& ways, const std::vector<bool>& seen, bool is_sharp,
+                        bool is_close);
 
 }  // namespace omr
 
