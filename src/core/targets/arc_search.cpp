@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
+#include "block_means.h"
 #include "edge_chains.h"
 
 namespace omr
@@ -45,14 +45,7 @@ std::vector<EdgeArc> arcsOf(const cv::Mat& bgr, int reduction, const cv::Size& s
 {
   std::vector<Edgel> edgels;
   {
-    cv::Mat reduced = bgr;
-    if (reduction > 1)
-    {
-      // Whole blocks of pixels, so that the scale is exact.
-      cv::resize(bgr(cv::Rect(cv::Point(), cv::Size(std::min(bgr.cols, size.width * reduction),
-                                                    std::min(bgr.rows, size.height * reduction)))),
-                 reduced, size, 0, 0, cv::INTER_AREA);
-    }
+    const cv::Mat reduced = reduction > 1 ? blockMeans(bgr, reduction, size) : bgr;
     EdgelMap map(reduced);
     map.raiseThreshold(STRENGTH);
     edgels = edgelsOf(map, size);
