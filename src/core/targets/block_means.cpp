@@ -22,20 +22,16 @@ OMR_VECTORIZED void addRow(const uchar* __restrict row, int count, std::uint16_t
   }
 }
 
-/** The means of blocks whose columns are summed up. */
-void meansOf(const std::uint16_t* sums, int side, int width, uchar* means)
+/** Adds the sums of the columns to the right of each: of all columns, so that they are added side by side. */
+OMR_VECTORIZED void addColumns(const std::uint16_t* __restrict sums, int side, int count,
+                               std::int32_t* __restrict totals)
 {
-  const float scale = 1.F / static_cast<float>(side * side);
-  for (int x = 0; x < width; ++x, sums += CHANNELS * side)
+  for (int j = 0; j < side; ++j)
   {
-    for (int c = 0; c < CHANNELS; ++c)
+    const std::uint16_t* __restrict right = sums + CHANNELS * j;
+    for (int i = 0; i < count; ++i)
     {
-      std::int32_t sum = 0;
-      for (int j = 0; j < side; ++j)
-      {
-        sum += sums[CHANNELS * j + c];
-      }
-      *means++ = cv::saturate_cast<uchar>(static_cast<float>(sum) * scale);
+      totals[i] = (j > 0 ? totals[i] : 0) + right[i];
     }
   }
 }
@@ -50,16 +46,27 @@ cv::Mat blockMeans(const cv::Mat& bgr, int side, const cv::Size& size)
     return means;
   }
   means.create(size, CV_8UC3);
+  const float scale = 1.F / static_cast<float>(side * side);
+  const int count = size.width * side * CHANNELS;
   cv::parallel_for_(cv::Range(0, size.height), [&](const cv::Range& range) {
-    std::vector<std::uint16_t> sums(static_cast<std::size_t>(size.width) * side * CHANNELS);
+    std::vector<std::uint16_t> sums(count);
+    std::vector<std::int32_t> totals(count);
     for (int y = range.start; y < range.end; ++y)
     {
       std::fill(sums.begin(), sums.end(), std::uint16_t{0});
       for (int i = 0; i < side; ++i)
       {
-        addRow(bgr.ptr<uchar>(y * side + i), static_cast<int>(sums.size()), sums.data());
+        addRow(bgr.ptr<uchar>(y * side + i), count, sums.data());
       }
-      meansOf(sums.data(), side, size.width, means.ptr<uchar>(y));
+      addColumns(sums.data(), side, count - CHANNELS * (side - 1), totals.data());
+      auto* mean = means.ptr<uchar>(y);
+      for (int x = 0; x < count; x += CHANNELS * side)
+      {
+        for (int c = 0; c < CHANNELS; ++c)
+        {
+          *mean++ = static_cast<uchar>(cvRound(static_cast<float>(totals[x + c]) * scale));
+        }
+      }
     }
   });
   return means;

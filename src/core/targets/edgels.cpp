@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gradient_tile.h"
+#include "lane_list.h"
 #include "vectorized.h"
 
 namespace omr
@@ -23,7 +24,7 @@ constexpr float NOISE_FACTOR = 3;
 constexpr float LOWEST_THRESHOLD = 12;
 constexpr float HIGHEST_THRESHOLD = 28;
 constexpr std::size_t TILE_LOOKS = 100;  // that computing a tile takes the time of
-constexpr int LANES = 8;
+constexpr int LANES = LaneList::LANES;
 
 /** Pixels side by side, and the magnitudes one step along their gradient and against it. */
 struct Neighbours
@@ -79,14 +80,6 @@ inline void compare(const GradientTile& tile, int i, int j, float threshold, Nei
     neighbours.is_edgel[lane] =
         -(static_cast<int>(here >= threshold) & static_cast<int>(here >= ahead) & static_cast<int>(here > behind));
   }
-}
-
-/** A bit for each lane that is an edgel. */
-unsigned edgelsOf(const Neighbours& neighbours)
-{
-  const int low = cv::v_signmask(cv::v_load(neighbours.is_edgel.data()));
-  const int high = cv::v_signmask(cv::v_load(neighbours.is_edgel.data() + LANES / 2));
-  return static_cast<unsigned>(low | high << (LANES / 2));
 }
 
 /** Edgels of a tile while they are found. */
@@ -168,18 +161,14 @@ OMR_VECTORIZED void findEdgels(const GradientTile& tile, const cv::Rect& area, c
     }
   }
   std::array<Neighbours, MOST> neighbours;
-  std::array<std::uint16_t, MOST * LANES + 1> edgels;
+  std::array<std::uint16_t, (MOST + 1) * LANES> edgels;
   std::size_t count = 0;
   for (std::size_t k = 0; k < strong_count; ++k)
   {
     const std::uint32_t b = strong[k].index;
     compare(tile, strong[k].row, BLOCKS[b], threshold, neighbours[k]);
-    const unsigned found = edgelsOf(neighbours[k]) & lanes[b];
-    for (unsigned lane = 0; lane < LANES; ++lane)
-    {
-      edgels[count] = static_cast<std::uint16_t>(k * LANES + lane);
-      count += found >> lane & 1U;
-    }
+    const unsigned found = LaneList::bitsOf(neighbours[k].is_edgel.data()) & lanes[b];
+    count += LaneList::write(found, static_cast<std::uint16_t>(k * LANES), &edgels[count]);
   }
   for (std::size_t e = 0; e < count; ++e)
   {

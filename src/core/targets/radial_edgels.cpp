@@ -6,6 +6,7 @@
 
 #include "bent_sheet.h"
 #include "fast_angle.h"
+#include "lane_list.h"
 #include "vectorized.h"
 
 namespace omr
@@ -38,7 +39,7 @@ struct RadialChunk
   std::array<double, CHUNK> scale;
   std::array<float, CHUNK> qx, qy;
   std::array<int, CHUNK> brighter_outside;
-  std::array<int, CHUNK> is_radial;
+  std::array<std::int32_t, CHUNK + LaneList::LANES> is_radial;  // -1 or 0
 };
 
 OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const float* y, const float* nx, const float* ny,
@@ -77,7 +78,7 @@ OMR_VECTORIZED void testEdgels(const RadialTest& test, const float* x, const flo
     chunk.qx[i] = static_cast<float>(qx);
     chunk.qy[i] = static_cast<float>(qy);
     chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
-    chunk.is_radial[i] = in_box & in_reach & is_radial ? 1 : 0;
+    chunk.is_radial[i] = in_box & in_reach & is_radial ? -1 : 0;
   }
 }
 
@@ -121,7 +122,7 @@ void testBentEdgels(const RadialTest& test, const float* x, const float* y, cons
     chunk.brighter_outside[i] = projection > 0 ? 1 : 0;
     chunk.is_radial[i] = squared <= test.max_squared && squared >= test.min_squared &&
                                  projection * projection >= test.squared_cosine * slope
-                             ? 1
+                             ? -1
                              : 0;
   }
 }
@@ -189,13 +190,12 @@ void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_rad
       const float* y = tile.y() + first;
       const std::size_t size = std::min(CHUNK, tile.size() - first);
       test_edgels(test, x, y, tile.nx() + first, tile.ny() + first, size, chunk);
-      // Listed without a branch: which they are cannot be foreseen.
-      std::array<std::size_t, CHUNK + 1> radial;
+      std::fill_n(chunk.is_radial.begin() + size, LaneList::LANES, 0);
+      std::array<std::uint16_t, CHUNK + LaneList::LANES> radial;
       std::size_t count = 0;
-      for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t i = 0; i < size; i += LaneList::LANES)
       {
-        radial[count] = i;
-        count += chunk.is_radial[i] != 0 ? 1 : 0;
+        count += LaneList::write(LaneList::bitsOf(&chunk.is_radial[i]), static_cast<std::uint16_t>(i), &radial[count]);
       }
       for (std::size_t k = 0; k < count; ++k)
       {
