@@ -28,9 +28,18 @@ constexpr Threshold FAINT = {4, 6};
 // Largest difference between opposite pixels of the ring, of their range; stricter loses squares of 3 px.
 constexpr float MAX_ASYMMETRY = 0.8F;
 
+/** The grey values of a row as they are compared: so each is widened once and not for each of its neighbours. */
+OMR_VECTORIZED void widen(const uchar* __restrict grey, int width, std::int16_t* __restrict values)
+{
+  for (int x = 0; x < width; ++x)
+  {
+    values[x] = grey[x];
+  }
+}
+
 /** 4 (Ixy^2 - Ixx Iyy) of a row, saturated; positive at saddle points. The whole image passes through here. */
-OMR_VECTORIZED void respond(const uchar* __restrict above, const uchar* __restrict here, const uchar* __restrict below,
-                            int width, std::int16_t* __restrict response)
+OMR_VECTORIZED void respond(const std::int16_t* __restrict above, const std::int16_t* __restrict here,
+                            const std::int16_t* __restrict below, int width, std::int16_t* __restrict response)
 {
   for (int x = 1; x < width - 1; ++x)
   {
@@ -65,12 +74,30 @@ unsigned findMaxima(const std::int16_t* above, const std::int16_t* response, con
   return static_cast<unsigned>(cv::v_signmask(cv::v_pack(maxima, maxima))) & 0xffU;
 }
 
-/** Responses of three rows, from top to bottom. */
-using Responses = std::array<std::int16_t*, 3>;
+/** Values of three rows, from top to bottom. */
+using Rows = std::array<std::int16_t*, 3>;
+
+/** Memory for three rows. */
+class RowBuffer
+{
+ public:
+  explicit RowBuffer(int width) : width_(width), values_(3 * static_cast<std::size_t>(width), 0)
+  {
+  }
+
+  Rows rows()
+  {
+    return {values_.data(), values_.data() + width_, values_.data() + 2 * static_cast<std::ptrdiff_t>(width_)};
+  }
+
+ private:
+  int width_;
+  std::vector<std::int16_t> values_;
+};
 
 /** Calls the action for every x with a maximum in the middle row. @param blocks memory for as many as a row has */
 template <typename Action>
-void forEachMaximum(const Responses& responses, int width, int least, std::vector<int>& blocks, const Action& action)
+void forEachMaximum(const Rows& responses, int width, int least, std::vector<int>& blocks, const Action& action)
 {
   const auto [above, here, below] = responses;
   const cv::v_int16x8 threshold = cv::v_setall_s16(static_cast<short>(least));
@@ -205,19 +232,25 @@ void findInRows(const cv::Mat& grey, const Threshold& least, int from, int to, s
 {
   const int width = grey.cols;
   Candidates candidates(grey, least.range, found);
-  const int stride = width + BLOCK;  // the last block of a row may end beyond it
-  std::vector<std::int16_t> buffer(3 * static_cast<std::size_t>(stride), 0);
-  const auto row_of_buffer = [&](int i) { return &buffer[static_cast<std::size_t>(i) * stride]; };
+  RowBuffer of_values(width);
+  RowBuffer of_responses(width + BLOCK);  // the last block of a row may end beyond it
+  Rows values = of_values.rows();
+  Rows responses = of_responses.rows();
   std::vector<int> blocks(width / BLOCK + 1);
-  Responses responses = {row_of_buffer(0), row_of_buffer(1), row_of_buffer(2)};
-  for (int y = from - 1; y <= to; ++y)
+  for (int y = from - 2; y <= to + 1; ++y)  // the row below that of the newest response
   {
+    std::rotate(values.begin(), values.begin() + 1, values.end());
+    widen(grey.ptr<uchar>(y), width, values[2]);
+    if (y < from)
+    {
+      continue;
+    }
     std::rotate(responses.begin(), responses.begin() + 1, responses.end());
-    respond(grey.ptr<uchar>(y - 1), grey.ptr<uchar>(y), grey.ptr<uchar>(y + 1), width, responses[2]);
-    if (y > from)
+    respond(values[0], values[1], values[2], width, responses[2]);
+    if (y > from + 1)
     {
       forEachMaximum(responses, width, least.response, blocks, [&](int x) {
-        candidates.add(responses[1][x], {x, y - 1});
+        candidates.add(responses[1][x], {x, y - 2});
       });
     }
   }

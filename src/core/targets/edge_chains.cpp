@@ -1,6 +1,8 @@
 #include "edge_chains.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -16,11 +18,29 @@ constexpr float MIN_ALONG = .3F;       // of a step [px]
 constexpr std::size_t FIRM_CHAIN = 3;  // edgels on one side: from so many on, a gap is crossed
 constexpr std::size_t MIN_CHAIN = 10;  // edgels
 
+/** Where the bits of PixelSet::around() lie. */
+struct Offset
+{
+  cv::Point2f at;
+  std::ptrdiff_t pixels;  // further on in the picture
+};
+
+std::array<Offset, PixelSet::SIDE * PixelSet::SIDE> offsetsOf(int width)
+{
+  std::array<Offset, PixelSet::SIDE * PixelSet::SIDE> offsets;
+  for (int i = 0; i < static_cast<int>(offsets.size()); ++i)
+  {
+    const cv::Point at(i % PixelSet::SIDE - PixelSet::REACH, i / PixelSet::SIDE - PixelSet::REACH);
+    offsets[i] = {at, static_cast<std::ptrdiff_t>(at.y) * width + at.x};
+  }
+  return offsets;
+}
+
 class Tracer
 {
  public:
   Tracer(const std::vector<Edgel>& edgels, const cv::Size& size)
-      : edgels_(edgels), index_(size), free_(size), visited_(edgels.size(), 0)
+      : edgels_(edgels), index_(size), free_(size), offsets_(offsetsOf(size.width)), visited_(edgels.size(), 0)
   {
     for (std::size_t i = 0; i < edgels.size(); ++i)
     {
@@ -104,23 +124,21 @@ class Tracer
   /** The next edgel along the edge: ahead in one of the pixels around. Hardly a branch: none could be foreseen. */
   const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
   {
-    const cv::Point pixel = pixelOf(here);
+    const int* index = &index_(pixelOf(here));
     const Edgel* best = nullptr;
     float best_cost = std::numeric_limits<float>::infinity();
     for (; pixels != 0; pixels &= pixels - 1)
     {
-      const int bit = __builtin_ctz(pixels);
-      const cv::Point offset(bit % PixelSet::SIDE - PixelSet::REACH, bit / PixelSet::SIDE - PixelSet::REACH);
-      const Edgel& edgel = edgels_[index_(pixel + offset)];
+      const Offset& offset = offsets_[__builtin_ctz(pixels)];
+      const Edgel& edgel = edgels_[index[offset.pixels]];
       const float step_x = edgel.x - here.x;
       const float step_y = edgel.y - here.y;
       const float along = step_x * direction.x + step_y * direction.y;
       const float across = std::abs(step_x * here.nx + step_y * here.ny);
       const float cost = across + .5F * along;
-      const bool is_next =
-          (static_cast<float>(offset.x) * direction.x + static_cast<float>(offset.y) * direction.y > 0) &
-          (along > MIN_ALONG) & (across < MAX_ACROSS) & (across < along) & (cost < best_cost) &
-          (std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE);
+      const bool is_next = (offset.at.x * direction.x + offset.at.y * direction.y > 0) & (along > MIN_ALONG) &
+                           (across < MAX_ACROSS) & (across < along) & (cost < best_cost) &
+                           (std::abs(edgel.nx * here.nx + edgel.ny * here.ny) > MIN_COSINE);
       best_cost = is_next ? cost : best_cost;
       best = is_next ? &edgel : best;
     }
@@ -130,6 +148,7 @@ class Tracer
   const std::vector<Edgel>& edgels_;
   cv::Mat1i index_;  // of the edgel in each pixel that has one
   PixelSet free_;    // pixels whose edgel is on no chain yet
+  std::array<Offset, PixelSet::SIDE * PixelSet::SIDE> offsets_;
   std::vector<char> visited_;
 };
 
@@ -140,9 +159,9 @@ std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size)
   map.computeAll();
   std::size_t count = 0;
   map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) { count += tile.size(); });
-  std::vector<Edgel> edgels;
-  edgels.reserve(count);  // that memory grows takes longer than the edgels do
-  map.visit(0, 0, size.width - 1, size.height - 1, [&](const Edgel& edgel) { edgels.push_back(edgel); });
+  std::vector<Edgel> edgels(count);
+  Edgel* next = edgels.data();
+  map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) { next = tile.copyTo(next); });
   return edgels;
 }
 

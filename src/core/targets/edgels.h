@@ -48,6 +48,18 @@ class EdgelTile
     return {x()[i], y()[i], nx()[i], ny()[i]};
   }
 
+  /** Writes all. @return what follows them. */
+  Edgel* copyTo(Edgel* edgels) const
+  {
+    const std::size_t count = size();
+    const float* values = values_.data();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      edgels[i] = {values[i], values[count + i], values[2 * count + i], values[3 * count + i]};
+    }
+    return edgels + count;
+  }
+
   void assign(std::size_t count, const float* x, const float* y, const float* nx, const float* ny)
   {
     values_.clear();
