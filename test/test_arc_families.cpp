@@ -16,7 +16,10 @@ namespace
 std::vector<omr::EdgeArc> arcsOf(const cv::Mat& image)
 {
   omr::EdgelMap map(image);
-  return omr::traceArcs(omr::edgelsOf(map, image.size()), image.size());
+  omr::ArcTrace trace;
+  omr::edgelsOf(map, image.size(), trace.edgels);
+  omr::traceArcs(image.size(), trace);
+  return trace.arcs;
 }
 
 double turningOf(const std::vector<omr::EdgeArc>& arcs)

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "block_means.h"
-#include "edge_chains.h"
+#include "edge_arcs.h"
 
 namespace omr
 {
@@ -39,18 +39,15 @@ void dropOutside(const cv::Size& image_size, ArcFamily& family)
   }
 }
 
-/** The arcs of the strong edges in the reduced picture. What a step needs is gone before the next one: of a busy scene
- * 4 instead of 7 MB at once, in the heap of each thread that ever did this. */
-std::vector<EdgeArc> arcsOf(const cv::Mat& bgr, int reduction, const cv::Size& size)
+/** The arcs of the strong edges in the reduced picture. */
+void findArcs(const cv::Mat& bgr, int reduction, const cv::Size& size, ArcTrace& trace)
 {
-  std::vector<Edgel> edgels;
   {
-    const cv::Mat reduced = reduction > 1 ? blockMeans(bgr, reduction, size) : bgr;
-    EdgelMap map(reduced);
+    EdgelMap map(reduction > 1 ? blockMeans(bgr, reduction, size) : bgr);
     map.raiseThreshold(STRENGTH);
-    edgels = edgelsOf(map, size);
-  }
-  return traceArcs(edgels, size);
+    edgelsOf(map, size, trace.edgels);
+  }  // what the next step does not need is gone before it
+  traceArcs(size, trace);
 }
 }  // namespace
 
@@ -58,7 +55,9 @@ std::vector<ArcFamily> searchArcFamilies(const cv::Mat& bgr)
 {
   const int reduction = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(bgr.total()) / MAX_PIXELS)));
   const cv::Size size(std::max(1, bgr.cols / reduction), std::max(1, bgr.rows / reduction));
-  std::vector<ArcFamily> families = findArcFamilies(arcsOf(bgr, reduction, size));
+  thread_local ArcTrace trace;  // of the thread that searches one image after the other
+  findArcs(bgr, reduction, size, trace);
+  std::vector<ArcFamily> families = findArcFamilies(trace.arcs);
   for (ArcFamily& family : families)
   {
     const double shift = (reduction - 1) / 2.;  // of the centre of a block

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <numeric>
 
-#include "edge_chains.h"
 #include "fast_angle.h"
 #include "vectorized.h"
 
@@ -176,9 +175,10 @@ void cutChain(const Links& links, int& chain, std::vector<EdgeArc>& arcs)
 }
 }  // namespace
 
-std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size& size)
+void traceArcs(const cv::Size& size, ArcTrace& trace)
 {
-  const Chains chains = followEdges(edgels, size);
+  followEdges(trace.edgels, size, trace.chains);
+  const Chains& chains = trace.chains;
   const std::size_t count = chains.ends.size();
   const auto end_of = [&](std::size_t before) { return before > 0 ? chains.ends[before - 1] : 0; };  // of the chains
   std::array<std::vector<EdgeArc>, PARTS> parts;
@@ -197,7 +197,8 @@ std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size&
       }
     }
   });
-  std::vector<EdgeArc> arcs;
+  std::vector<EdgeArc>& arcs = trace.arcs;
+  arcs.clear();
   arcs.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t{0},
                                [](std::size_t sum, const auto& part) { return sum + part.size(); }));
   int chain = 0;  // the last one so far
@@ -212,7 +213,6 @@ std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size&
     }
     part = std::vector<EdgeArc>();  // gives its memory back
   }
-  return arcs;
 }
 
 }  // namespace omr

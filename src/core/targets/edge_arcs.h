@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arc_shape.h"
+#include "edge_chains.h"
 #include "edgels.h"
 
 namespace omr
@@ -19,12 +20,21 @@ struct EdgeArc
   cv::Point2d inwards;  ///< unit vector towards the concave side
 };
 
+/** The arcs of an image, and what leads to them. It may serve for the next image: as much memory asked of the system
+ * anew, page by page, took a third of the CPU time on clutter. */
+struct ArcTrace
+{
+  std::vector<Edgel> edgels;
+  Chains chains;
+  std::vector<EdgeArc> arcs;
+};
+
 /**
- * Follows edgels along edges and cuts them into bent pieces; straight ones are left out.
+ * Follows the edgels along edges and cuts them into bent pieces; straight ones are left out.
  *
  * @param size of the edgels' image.
  */
-std::vector<EdgeArc> traceArcs(const std::vector<Edgel>& edgels, const cv::Size& size);
+void traceArcs(const cv::Size& size, ArcTrace& trace);
 
 }  // namespace omr
 

@@ -1,5 +1,6 @@
 #include "edge_chains.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -39,21 +40,29 @@ std::array<Offset, PixelSet::SIDE * PixelSet::SIDE> offsetsOf(int width)
 class Tracer
 {
  public:
-  Tracer(const std::vector<Edgel>& edgels, const cv::Size& size)
-      : edgels_(edgels), index_(size), free_(size), offsets_(offsetsOf(size.width)), visited_(edgels.size(), 0)
+  /** @param chains receives them. */
+  Tracer(const std::vector<Edgel>& edgels, const cv::Size& size, Chains& chains)
+      : edgels_(edgels),
+        width_(size.width),
+        chains_(chains),
+        free_(size),
+        offsets_(offsetsOf(size.width)),
+        visited_(edgels.size(), 0)
   {
+    chains.edgels.clear();
+    chains.edgels.reserve(edgels.size());
+    chains.ends.clear();
+    chains.index.resize(std::max(chains.index.size(), static_cast<std::size_t>(size.area())));
     for (std::size_t i = 0; i < edgels.size(); ++i)
     {
       const cv::Point pixel = pixelOf(edgels[i]);
-      index_(pixel) = static_cast<int>(i);
+      chains.index[placeOf(pixel)] = static_cast<int>(i);
       free_.set(pixel);
     }
   }
 
-  Chains chains()
+  void run()
   {
-    Chains chains;
-    chains.edgels.reserve(edgels_.size());
     std::vector<const Edgel*> forward;
     std::vector<const Edgel*> backward;
     for (std::size_t i = 0; i < edgels_.size(); ++i)
@@ -70,13 +79,13 @@ class Tracer
       follow(start, cv::Point2f(start.ny, -start.nx), backward);
       if (backward.size() + 1 + forward.size() >= MIN_CHAIN)
       {
-        chains.edgels.insert(chains.edgels.end(), backward.rbegin(), backward.rend());
-        chains.edgels.push_back(&start);
-        chains.edgels.insert(chains.edgels.end(), forward.begin(), forward.end());
-        chains.ends.push_back(chains.edgels.size());
+        std::vector<const Edgel*>& chained = chains_.edgels;
+        chained.insert(chained.end(), backward.rbegin(), backward.rend());
+        chained.push_back(&start);
+        chained.insert(chained.end(), forward.begin(), forward.end());
+        chains_.ends.push_back(chained.size());
       }
     }
-    return chains;
   }
 
  private:
@@ -85,13 +94,18 @@ class Tracer
     return {cvRound(edgel.x), cvRound(edgel.y)};
   }
 
+  std::size_t placeOf(const cv::Point& pixel) const
+  {
+    return static_cast<std::size_t>(pixel.y) * width_ + pixel.x;
+  }
+
   /** An edgel is on one chain only. */
   void leave(const Edgel& edgel)
   {
     const auto i = static_cast<int>(&edgel - edgels_.data());
     visited_[i] = 1;
     const cv::Point pixel = pixelOf(edgel);
-    if (index_(pixel) == i)
+    if (chains_.index[placeOf(pixel)] == i)
     {
       free_.reset(pixel);
     }
@@ -124,7 +138,7 @@ class Tracer
   /** The next edgel along the edge: ahead in one of the pixels around. Hardly a branch: none could be foreseen. */
   const Edgel* successor(const Edgel& here, const cv::Point2f& direction, std::uint32_t pixels) const
   {
-    const int* index = &index_(pixelOf(here));
+    const int* index = &chains_.index[placeOf(pixelOf(here))];
     const Edgel* best = nullptr;
     float best_cost = std::numeric_limits<float>::infinity();
     for (; pixels != 0; pixels &= pixels - 1)
@@ -146,28 +160,28 @@ class Tracer
   }
 
   const std::vector<Edgel>& edgels_;
-  cv::Mat1i index_;  // of the edgel in each pixel that has one
-  PixelSet free_;    // pixels whose edgel is on no chain yet
+  int width_;
+  Chains& chains_;
+  PixelSet free_;  // pixels whose edgel is on no chain yet
   std::array<Offset, PixelSet::SIDE * PixelSet::SIDE> offsets_;
   std::vector<char> visited_;
 };
 
 }  // namespace
 
-std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size)
+void edgelsOf(EdgelMap& map, const cv::Size& size, std::vector<Edgel>& edgels)
 {
   map.computeAll();
   std::size_t count = 0;
   map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) { count += tile.size(); });
-  std::vector<Edgel> edgels(count);
+  edgels.resize(count);
   Edgel* next = edgels.data();
   map.visitTiles(0, 0, size.width - 1, size.height - 1, [&](const EdgelTile& tile) { next = tile.copyTo(next); });
-  return edgels;
 }
 
-Chains followEdges(const std::vector<Edgel>& edgels, const cv::Size& size)
+void followEdges(const std::vector<Edgel>& edgels, const cv::Size& size, Chains& chains)
 {
-  return Tracer(edgels, size).chains();
+  Tracer(edgels, size, chains).run();
 }
 
 }  // namespace omr

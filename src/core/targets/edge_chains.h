@@ -13,10 +13,11 @@ struct Chains
 {
   std::vector<const Edgel*> edgels;
   std::vector<std::size_t> ends;  // of each chain
+  std::vector<int> index;         // memory: the edgel in each pixel that has one
 };
 
 /** All edgels of an image. */
-std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size);
+void edgelsOf(EdgelMap& map, const cv::Size& size, std::vector<Edgel>& edgels);
 
 /**
  * Follows edgels along edges, each edgel on one chain; short chains are left out.
@@ -24,7 +25,7 @@ std::vector<Edgel> edgelsOf(EdgelMap& map, const cv::Size& size);
  * @param edgels must outlive the chains.
  * @param size   of their image.
  */
-Chains followEdges(const std::vector<Edgel>& edgels, const cv::Size& size);
+void followEdges(const std::vector<Edgel>& edgels, const cv::Size& size, Chains& chains);
 
 }  // namespace omr
 
