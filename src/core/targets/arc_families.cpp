@@ -25,10 +25,35 @@ constexpr std::size_t MAX_FAMILIES = 12;
 /** Arcs that follow each other along an edge. */
 struct Run
 {
-  ArcSums sums;
   std::size_t first = 0, last = 0;
   double turning = 0;
+  ArcSums sums;
 };
+
+/** Those that turn enough to be paired, the one that turns most first. Few do: only their sums are joined. */
+std::vector<Run> findRuns(const std::vector<EdgeArc>& arcs)
+{
+  std::vector<Run> runs;
+  for (std::size_t first = 0, next = 0; first < arcs.size(); first = next)
+  {
+    double turning = 0;
+    for (next = first; next < arcs.size() && arcs[next].chain == arcs[first].chain; ++next)
+    {
+      turning += arcs[next].turning;
+    }
+    if (turning > MIN_PAIRED)
+    {
+      runs.push_back({first, next - 1, turning, arcs[first].sums});
+      for (std::size_t i = first + 1; i < next; ++i)
+      {
+        runs.back().sums = joined(runs.back().sums, arcs[i].sums);
+      }
+    }
+  }
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run& left, const Run& right) { return left.turning > right.turning; });
+  return runs;
+}
 
 /** The middles of arcs, each of their values side by side. */
 struct Middles
@@ -92,43 +117,23 @@ class Search
 {
  public:
   explicit Search(const std::vector<EdgeArc>& arcs)
-      : arcs_(arcs), middles_(arcs), is_along_(arcs.size()), used_(arcs.size(), 0)
+      : arcs_(arcs), middles_(arcs), is_along_(arcs.size()), runs_(findRuns(arcs)), used_(arcs.size(), 0)
   {
-    for (std::size_t i = 0; i < arcs.size(); ++i)
-    {
-      if (!runs_.empty() && arcs[i].chain == arcs[runs_.back().last].chain)
-      {
-        Run& run = runs_.back();
-        run.sums = joined(run.sums, arcs[i].sums);
-        run.last = i;
-        run.turning += arcs[i].turning;
-      }
-      else
-      {
-        runs_.push_back({arcs[i].sums, i, i, arcs[i].turning});
-      }
-    }
-    for (const Run& run : runs_)
-    {
-      by_turning_.push_back(&run);
-    }
-    std::stable_sort(by_turning_.begin(), by_turning_.end(),
-                     [](const Run* left, const Run* right) { return left->turning > right->turning; });
   }
 
   std::vector<ArcFamily> run()
   {
     std::vector<Hypothesis> hypotheses;
     const std::size_t paired = std::min(MAX_PAIRED, runs_.size());
-    for (std::size_t i = 0; i < by_turning_.size() && by_turning_[i]->turning > MIN_PAIRED; ++i)
+    for (std::size_t i = 0; i < runs_.size(); ++i)
     {
-      if (by_turning_[i]->turning > MIN_ALONE)
+      if (runs_[i].turning > MIN_ALONE)
       {
-        propose(*by_turning_[i], nullptr, hypotheses);
+        propose(runs_[i], nullptr, hypotheses);
       }
-      for (std::size_t j = i + 1; i < paired && j < paired && by_turning_[j]->turning > MIN_PAIRED; ++j)
+      for (std::size_t j = i + 1; j < paired; ++j)
       {
-        propose(*by_turning_[i], by_turning_[j], hypotheses);
+        propose(runs_[i], &runs_[j], hypotheses);
       }
     }
     std::stable_sort(hypotheses.begin(), hypotheses.end(),
@@ -250,7 +255,6 @@ class Search
   Middles middles_;
   std::vector<std::int64_t> is_along_;  // the hypothesis that was looked at last
   std::vector<Run> runs_;
-  std::vector<const Run*> by_turning_;  // the one that turns most first
   std::vector<char> used_;
 };
 }  // namespace

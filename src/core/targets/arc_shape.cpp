@@ -11,27 +11,52 @@ constexpr double DISTANCE_DEVIATION = .3;  // of an edgel from its circle [px]
 constexpr double SINE_DEVIATION = .08;     // of its normal from the radius
 constexpr double MAX_ASPECT = 3.5;
 
-/** Adds to the upper triangle. */
-void addProduct(const ShapeVector& row, ShapeMatrix& sum)
+/** Places of the gradients' products that are not 0 in a triangle. */
+enum GradientPlace
 {
+  XX = 0,
+  XY = 1,
+  X = 3,
+  XX_AND_YY = 5,
+  XY_AGAIN = 6,
+  Y = 7,
+  X_AGAIN = 8,
+  YY = 9,
+  Y_AGAIN = 11,
+  COUNT = 12,
+  COUNT_AGAIN = 14
+};
+
+/** Adds a row's products with itself. */
+void addProduct(const ShapeVector& row, double weight, ShapeTriangle& sum)
+{
+  int i = 0;
   for (int a = 0; a < 5; ++a)
   {
     for (int b = a; b < 5; ++b)
     {
-      sum(a, b) += row[a] * row[b];
+      sum[i++] += row[a] * row[b] * weight;
     }
   }
 }
 
-void mirror(ShapeMatrix& sum)
+ShapeMatrix full(const ShapeTriangle& triangle)
 {
+  ShapeMatrix matrix;
+  int i = 0;
   for (int a = 0; a < 5; ++a)
   {
-    for (int b = 0; b < a; ++b)
+    for (int b = a; b < 5; ++b)
     {
-      sum(a, b) = sum(b, a);
+      matrix(a, b) = matrix(b, a) = triangle[i++];
     }
   }
+  return matrix;
+}
+
+double squareOf(const ShapeTriangle& triangle, const ShapeVector& shape)
+{
+  return shape.dot(full(triangle) * shape);
 }
 
 /** Cholesky's decomposition, the factor in the lower triangle, its diagonal inverted. */
@@ -122,40 +147,37 @@ void ArcSums::add(const Edgel& edgel)
   const double nx = edgel.nx;
   const double ny = edgel.ny;
   const ShapeVector level_row(x * x, 2 * x * y, y * y, -2 * x, -2 * y);
-  addProduct({-ny * x, nx * x - ny * y, nx * y, ny, -nx}, direction);
-  addProduct(level_row, level);
+  addProduct({-ny * x, nx * x - ny * y, nx * y, ny, -nx}, 1, direction);
+  addProduct(level_row, 1, level);
   // Of the products of (x, y, 0, -1, 0) and (0, x, y, 0, -1) few differ from 0 and from each other.
-  gradient(0, 0) += x * x;
-  gradient(0, 1) += x * y;
-  gradient(0, 3) -= x;
-  gradient(1, 3) -= y;
-  gradient(2, 2) += y * y;
+  gradient[XX] += x * x;
+  gradient[XY] += x * y;
+  gradient[X] -= x;
+  gradient[Y] -= y;
+  gradient[YY] += y * y;
   mean_level += level_row;
   ++count;
 }
 
 void ArcSums::close()
 {
-  gradient(1, 1) = gradient(0, 0) + gradient(2, 2);
-  gradient(1, 2) = gradient(0, 1);
-  gradient(1, 4) = gradient(0, 3);
-  gradient(2, 4) = gradient(1, 3);
-  gradient(3, 3) = gradient(4, 4) = count;
-  mirror(direction);
-  mirror(level);
-  mirror(gradient);
+  gradient[XX_AND_YY] = gradient[XX] + gradient[YY];
+  gradient[XY_AGAIN] = gradient[XY];
+  gradient[X_AGAIN] = gradient[X];
+  gradient[Y_AGAIN] = gradient[Y];
+  gradient[COUNT] = gradient[COUNT_AGAIN] = count;
   mean_level *= 1 / std::max(1., count);
-  level -= count * (mean_level * mean_level.t());
+  addProduct(mean_level, -count, level);
 }
 
 double ArcSums::squaredSine(const ShapeVector& shape) const
 {
-  return shape.dot(direction * shape) / std::max(1e-12, shape.dot(gradient * shape));
+  return squareOf(direction, shape) / std::max(1e-12, squareOf(gradient, shape));
 }
 
 double ArcSums::squaredDistance(const ShapeVector& shape) const
 {
-  return shape.dot(level * shape) / std::max(1e-12, 4 * shape.dot(gradient * shape));
+  return squareOf(level, shape) / std::max(1e-12, 4 * squareOf(gradient, shape));
 }
 
 ArcSums sumOf(const ArcSums& left, const ArcSums& right)
@@ -174,16 +196,16 @@ ArcSums joined(const ArcSums& left, const ArcSums& right)
   ArcSums sum = sumOf(left, right);
   const ShapeVector difference = left.mean_level - right.mean_level;
   const double weight = left.count * right.count / std::max(1., sum.count);
-  sum.level += weight * (difference * difference.t());
+  addProduct(difference, weight, sum.level);
   return sum;
 }
 
 bool fitShape(const ArcSums& sums, const cv::Point2d& origin, double scale, ShapeVector& shape, RingFamily& family)
 {
   const ShapeMatrix local = toLocal(origin, scale);
-  const ShapeMatrix weighted = sums.level * (1 / (4 * DISTANCE_DEVIATION * DISTANCE_DEVIATION)) +
-                               sums.direction * (1 / (SINE_DEVIATION * SINE_DEVIATION));
-  ShapeVector best = leastEigenvector(local.t() * weighted * local);
+  const ShapeTriangle weighted = sums.level * (1 / (4 * DISTANCE_DEVIATION * DISTANCE_DEVIATION)) +
+                                 sums.direction * (1 / (SINE_DEVIATION * SINE_DEVIATION));
+  ShapeVector best = leastEigenvector(local.t() * full(weighted) * local);
   if (best[0] < 0)
   {
     best *= -1;

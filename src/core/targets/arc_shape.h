@@ -11,6 +11,8 @@ namespace omr
 /** Coefficients s11, s12, s22, d1, d2 of concentric circles' image: level sets of p^T S p - 2 d^T p. */
 using ShapeVector = cv::Vec<double, 5>;
 using ShapeMatrix = cv::Matx<double, 5, 5>;
+/** Of a symmetric matrix the upper triangle, row by row. */
+using ShapeTriangle = cv::Vec<double, 15>;
 
 /**
  * Sums over edgels that say how well any family of concentric circles fits them: with the coefficients s of the family,
@@ -19,9 +21,9 @@ using ShapeMatrix = cv::Matx<double, 5, 5>;
 struct ArcSums
 {
   double count = 0;
-  ShapeMatrix direction = ShapeMatrix::zeros();  ///< of the sine between normal and radius x half the levels' gradient
-  ShapeMatrix level = ShapeMatrix::zeros();      ///< of the levels' deviations from their mean
-  ShapeMatrix gradient = ShapeMatrix::zeros();   ///< of half the levels' gradient
+  ShapeTriangle direction;  ///< of the sine between normal and radius x half the levels' gradient
+  ShapeTriangle level;      ///< of the levels' deviations from their mean
+  ShapeTriangle gradient;   ///< of half the levels' gradient
   ShapeVector mean_level = ShapeVector::all(0);
 
   /** Adds an edgel; close() ends the adding. */
