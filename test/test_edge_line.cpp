@@ -73,6 +73,23 @@ TEST(EdgeLine, aRimIsNoneWhereSquaresGoOnBelowAShadow)
   EXPECT_EQ(RIM, sides[omr::bottom]);
 }
 
+TEST(EdgeLine, aRimIsNoneWhereTheNextSquaresBegin)
+{
+  constexpr auto RIM = omr::SideEvidence::rim;
+  for (const double begin : {0., 0.25})  // squares
+  {
+    Render render({400, 340});
+    render.addBoard(ROWS, COLS, place());
+    const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+    const double covered = ROWS - 1 + begin;
+    render.addPolygon({corner(-2, covered), corner(COLS + 2, covered), corner(COLS + 2, 9), corner(-2, 9)},
+                      cv::Scalar::all(110));
+    Sides sides = {RIM, RIM, RIM, RIM};
+    omr::settleRims(omr::makeFrame(render.picture(0.8)), firstRows(ROWS - 2), sides);
+    EXPECT_EQ(begin > 0 ? omr::SideEvidence::none : RIM, sides[omr::bottom]) << begin;
+  }
+}
+
 TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
 {
   constexpr double CUT = ROWS - 0.5;

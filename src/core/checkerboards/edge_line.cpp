@@ -68,7 +68,10 @@ bool EdgeLine::isLast() const
 
 bool EdgeLine::goesOn() const
 {
-  return beyond > MAX_BEYOND;
+  // Where a thing covers all but the beginning of the next squares, light ones still end at dark ones and dark ones at
+  // light ones: of 2126 joined boards 167 wrong -> 150, of 63 in path-traced scenes 2 -> 1; none is lost.
+  constexpr float MIN_ENDING = 0.6F;
+  return beyond > MAX_BEYOND || std::min(dark, light) > MIN_ENDING;
 }
 
 bool fitEdges(const Lattice& lattice, bool exact, LatticeModel& model)
