@@ -206,7 +206,7 @@ TEST(Checkerboards, hiddenRimsHaveNoCertainSize)
   Render render({600, 440});
   render.addBoard(7, 9, truth);
   // Hides the last two columns and the margin beside them.
-  render.addPolygon({{380, -10}, {610, -10}, {610, 450}, {380, 450}}, cv::Scalar(90, 100, 110));
+  render.addPolygon({{375, -10}, {610, -10}, {610, 450}, {375, 450}}, cv::Scalar(90, 100, 110));
   const std::vector<Checkerboard> boards = find(render.picture());
   ASSERT_EQ(1u, boards.size());
   EXPECT_FALSE(boards[0].size_certain);
