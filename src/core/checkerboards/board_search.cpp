@@ -128,12 +128,8 @@ bool settleByEdges(Lattice& lattice, const Frame& frame, std::array<SideEvidence
   fitReadCorners(frame, lattice);
   for (const Side side : SIDES)
   {
-    if (sides[side] != SideEvidence::doubtful_border)
-    {
-      continue;
-    }
-    const BorderLine border = lookAtBorder(lattice, frame, side, 1);
-    if (border.ends() && !border.isDoubtful() && rimBeyond(lattice, frame, side) == 0)
+    if (sides[side] == SideEvidence::doubtful_border && lookAtBorder(lattice, frame, side, 1).ends() &&
+        rimBeyond(lattice, frame, side) == 0)
     {
       sides[side] = SideEvidence::border;
     }

@@ -16,14 +16,8 @@ bool BorderLine::mayEnd() const
 bool BorderLine::ends() const
 {
   constexpr float MIN_SHARE = 0.5F;
-  return seen >= 2 && seen > goes_on && static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
-}
-
-bool BorderLine::isDoubtful() const
-{
-  // Of 648 boards drawn below things, shadows and light 1 certain and wrong -> 0, the 231 certain and right stay.
-  constexpr int MIN_GOING_ON = 2;
-  return goes_on >= MIN_GOING_ON;
+  return seen >= 2 && seen > goes_on && goes_on <= MAX_GOING_ON &&
+         static_cast<float>(seen) >= MIN_SHARE * static_cast<float>(places);
 }
 
 bool BorderLine::endsBare() const

@@ -127,8 +127,7 @@ SideEvidence sideEvidence(const Lattice& lattice, const Frame& frame, Side side,
     // Beside a complete line of corners one corner of a target or of the next board looks like a rim that goes on: 20
     // of 1409 boards. Two are the rim beyond a label: of 93 boards with one drawn on them 19 were certain and wrong.
     const int least = share < 1 ? 1 : 2;
-    const bool is_doubtful = border.isDoubtful() || rimBeyond(lattice, frame, side) >= least;
-    return is_doubtful ? SideEvidence::doubtful_border : SideEvidence::border;
+    return rimBeyond(lattice, frame, side) >= least ? SideEvidence::doubtful_border : SideEvidence::border;
   }
   if (border.endsBare())
   {
@@ -144,7 +143,7 @@ SideEvidence sideEvidence(const Lattice& lattice, const Frame& frame, Side side,
   // A corner alone may be chance, and what is plain beside it no margin: of 1354
   // boards on transformed photographs 1 wrong -> 0.
   const bool is_shown = found + static_cast<float>(border.seen) > 1;
-  return is_last && is_shown && border.goes_on <= 1 + border.seen / 2 ? SideEvidence::rim : SideEvidence::none;
+  return is_last && is_shown && border.goes_on <= MAX_GOING_ON ? SideEvidence::rim : SideEvidence::none;
 }
 
 /** The corners that are far from where the model has them. */
