@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "targets/ring_candidate.h"
 
 namespace
@@ -48,6 +50,30 @@ TEST(RingAcceptance, manyTurnsOutweighFewDirections)
   EXPECT_TRUE(omr::isTarget(shown(spread, 3, .06), 3));
   EXPECT_FALSE(omr::isTarget(shown(spread, 3, .1), 3));
   EXPECT_FALSE(omr::isTarget(shown(half, 5, .06), 3)) << "an arch";
+}
+
+TEST(RingAcceptance, veryClearRingsMayBeSeenInAWiderView)
+{
+  const auto seenAslant = [](double focal, double radius, double clearness) {
+    omr::RingCandidate candidate = halfHidden(4, .1);
+    candidate.visible = 1;
+    candidate.evidence = clearness;
+    for (double& of_ring : candidate.rings.radii)
+    {
+      of_ring *= radius / 28;
+    }
+    omr::RingFamily& family = candidate.rings.family;
+    family.a = std::sqrt(2.);  // at 60 degrees
+    family.d = 1 / family.a;
+    family.hx = std::sin(CV_PI / 3) * family.a / focal + .1 / radius;
+    return omr::isTarget(candidate, 3);
+  };
+  EXPECT_TRUE(seenAslant(330, 28, .85)) << "less than 90 degrees: half the image is 320 px wide";
+  EXPECT_FALSE(seenAslant(250, 28, .85));
+  EXPECT_TRUE(seenAslant(250, 28, .97));
+  EXPECT_TRUE(seenAslant(110, 28, .97)) << "less than 143 degrees";
+  EXPECT_FALSE(seenAslant(100, 28, .97));
+  EXPECT_FALSE(seenAslant(250, 14, .97));
 }
 
 int main(int argc, char** argv)
