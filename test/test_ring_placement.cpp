@@ -199,6 +199,29 @@ TEST(RingPlacement, ofSmallRingsThatAreLessClearAllAreReadAndOneHasAHue)
   EXPECT_FALSE(isTarget("BWP", .8));
 }
 
+TEST(RingPlacement, aDiskThatSomethingHidesMayBeUnknownWhereTheOthersAreCertain)
+{
+  const auto letters = [](const std::string& colors, bool is_disk_shown) {
+    TargetScene scene;
+    scene.colors = colors;
+    scene.radii = {6, 12, 18};
+    scene.sheet_half_side = 25;
+    const cv::Mat image = renderTarget(scene);
+    omr::EdgelMap map(image);
+    RingFamily family;
+    family.center = projectedCenter(scene);
+    omr::RingCandidate candidate;
+    EXPECT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+    candidate.evidence = .8;
+    candidate.boundaries.front().shown = is_disk_shown;
+    const std::vector<omr::Target> targets = omr::readTargets(image, {candidate}, 3);
+    return targets.empty() ? "" : targets[0].colors;
+  };
+  EXPECT_EQ("BRP", letters("BRP", true));
+  EXPECT_EQ("?RP", letters("BRP", false));
+  EXPECT_EQ("", letters("PWP", false)) << "eyes have no hue";
+}
+
 TEST(RingPlacement, needsNoBoundaries)
 {
   const TargetScene scene = tiltedScene();

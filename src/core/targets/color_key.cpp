@@ -244,7 +244,9 @@ KeyReading readColorKey(const std::vector<ColorMeasurement>& ways, const std::ve
         seen[k] && search.marginOf(k) >= MIN_MARGIN && search.costOf(k) <= UNEXPLAINED && !is_unexplained;
     reading.letters[k] = readable ? LETTER[best.letters[k]] : '?';
   }
-  reading.is_certain = reading.letters.find('?') == std::string::npos && best.haze <= CERTAIN_HAZE &&
+  const auto read_count =
+      count - static_cast<std::size_t>(std::count(reading.letters.begin(), reading.letters.end(), '?'));
+  reading.is_certain = static_cast<double>(read_count) == seen_count && best.haze <= CERTAIN_HAZE &&
                        costs.least_margin > CERTAIN_MARGIN && costs.largest < CERTAIN_COST &&
                        costs.median <= UNEXPLAINED_MEDIAN;
   return reading;

@@ -26,7 +26,7 @@ using ColorMeasurement = std::function<std::vector<LinearColor>()>;
 struct KeyReading
 {
   std::string letters;      ///< '?' for what is not known
-  bool is_certain = false;  ///< whether none comes near to another letter, as mixtures of two rings do
+  bool is_certain = false;  ///< whether none that is seen comes near to another letter, as mixtures of two do
 };
 
 /**

@@ -21,7 +21,7 @@ struct RingCandidate
   std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
   bool is_spot = false;       ///< grown from a round spot, which has neither regions nor a family of arcs
   bool is_merged = false;     ///< two boundaries of narrow rings, which are a target if inks tell that they are more
-  bool is_certain = false;    ///< of its letters, as readLetters() found: no mixture of two rings is so
+  bool is_certain = false;    ///< of the letters of the rings that show, as readLetters() found: no mixture is
   bool is_explained = false;  ///< by inks, as readLetters() found: then the blur hides no narrow ring
   int profile_scale = 1;      ///< pixels of the profile a pixel of the image: small rings are looked at enlarged
   double visible = 0;         ///< share of the directions in which at least half of the boundaries show [0, 1]

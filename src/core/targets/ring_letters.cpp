@@ -197,6 +197,11 @@ bool isRound(const std::vector<Boundary>& boundaries)
   return share(inside & shownAt(boundaries[last])) > ROUND * share(inside);
 }
 
+bool showsAll(const std::vector<Boundary>& boundaries)
+{
+  return std::all_of(boundaries.begin(), boundaries.end(), [](const Boundary& boundary) { return boundary.shown; });
+}
+
 /** Letters that inks explain, but that something may hide, become '?'. @param key what colours alone tell. */
 void doubtHidden(const RingCandidate& candidate, const std::string& key, NarrowRings& rings)
 {
@@ -268,7 +273,9 @@ std::string readLetters(RingCandidate& candidate)
       return rings.letters;
     }
   }
-  candidate.is_certain = key.is_certain && letters.find('?') == std::string::npos;
+  const auto unknown = std::count(letters.begin(), letters.end(), '?');
+  const auto hidden = std::count_if(boundaries.begin(), boundaries.end(), [](const Boundary& b) { return !b.shown; });
+  candidate.is_certain = key.is_certain && unknown == hidden;
   candidate.boundaries = std::move(boundaries);
   candidate.rings.radii = std::move(left);
   return letters;
@@ -278,8 +285,9 @@ bool hidesRings(const RingCandidate& candidate)
 {
   const double width = narrowestRing(candidate.rings.radii);
   const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
-  const bool is_certain = candidate.is_certain && !candidate.is_spot && candidate.visible > CERTAIN_VISIBLE &&
-                          width > CERTAIN_WIDTH && widestRing(candidate.rings.radii) < CERTAIN_EVENNESS * width;
+  const bool is_certain = candidate.is_certain && !candidate.is_spot && showsAll(candidate.boundaries) &&
+                          candidate.visible > CERTAIN_VISIBLE && width > CERTAIN_WIDTH &&
+                          widestRing(candidate.rings.radii) < CERTAIN_EVENNESS * width;
   const double most = is_certain ? MOST_UNEXPLAINED_CERTAIN
                                  : std::clamp(MOST_UNEXPLAINED_WIDTH / width, MOST_UNEXPLAINED, MOST_UNEXPLAINED_SHARP);
   return (width < NARROW && !candidate.is_explained && unexplained(*candidate.profile, radii) > most) ||
