@@ -20,39 +20,6 @@ constexpr int PARTS = 8;        // of the points, shared by the threads; the see
 constexpr float CLEAR_GAP = 5;  // grey levels between light and dark squares
 constexpr float FAINT_GAP = 3;
 
-/** Grey levels by which the seven squares around the corner alternate, or 0 if by less than the least gap. */
-float alternation(const cv::Mat& grey, const LocalFrame& frame, float least_gap)
-{
-  struct Square
-  {
-    float u, v;
-    bool is_like_first;
-  };
-  constexpr std::array<Square, 5> OTHERS = {
-      {{-0.5F, -0.5F, true}, {0.5F, -0.5F, false}, {1.5F, 0.5F, false}, {0.5F, 1.5F, false}, {1.5F, 1.5F, true}}};
-  const auto sample = [&](float u, float v) {
-    const cv::Point2f point = frame.at(u, v);
-    return sampleGrey(grey, point.x, point.y);
-  };
-  const float first = sample(0.5F, 0.5F);
-  const float second = sample(-0.5F, 0.5F);
-  const float sign = first > second ? 1 : -1;
-  float light = sign * first;  // the darkest of the light squares, as seen with that sign
-  float dark = sign * second;
-  // In texture the first two squares tell already.
-  for (auto square = OTHERS.begin(); light - dark >= least_gap; ++square)
-  {
-    if (square == OTHERS.end())
-    {
-      return light - dark;
-    }
-    const float value = sign * sample(square->u, square->v);
-    light = square->is_like_first ? std::min(light, value) : light;
-    dark = square->is_like_first ? dark : std::max(dark, value);
-  }
-  return 0;
-}
-
 /** Pairs of steps from one point. */
 struct Steps
 {
@@ -61,37 +28,61 @@ struct Steps
   std::array<float, SIZE> ux, uy, vx, vy;
 };
 
-/** Which of the pairs' four squares around the point alternate: alternation() of their frames may be more than 0. */
-OMR_VECTORIZED void judgeSquares(const cv::Mat& grey, const cv::Point2f& center, const Steps& steps, float least_gap,
-                                 std::array<int, Steps::SIZE>& alternate)
+/** Where a square beside the point has its middle, in steps, and whether it is as light as the first one. */
+struct Square
+{
+  float u, v;
+  bool is_like_first;
+};
+constexpr std::array<Square, 7> SQUARES = {{{0.5F, 0.5F, true},
+                                            {-0.5F, 0.5F, false},
+                                            {-0.5F, -0.5F, true},
+                                            {0.5F, -0.5F, false},
+                                            {1.5F, 0.5F, false},
+                                            {0.5F, 1.5F, false},
+                                            {1.5F, 1.5F, true}}};
+
+/** Grey levels by which the seven squares around the point alternate, for each of the pairs. */
+OMR_VECTORIZED void measureGaps(const cv::Mat& grey, const cv::Point2f& center, const Steps& steps,
+                                std::array<float, Steps::SIZE>& gaps)
 {
   constexpr std::size_t SIZE = Steps::SIZE;
-  SamplePlaces<4 * SIZE> places;  // by squares
+  SamplePlaces<SQUARES.size() * SIZE> places;  // by squares
   const float x = center.x;
   const float y = center.y;
-  for (std::size_t i = 0; i < SIZE; ++i)
+  for (std::size_t k = 0; k < SQUARES.size(); ++k)
   {
-    const float ux = .5F * steps.ux[i];
-    const float uy = .5F * steps.uy[i];
-    const float vx = .5F * steps.vx[i];
-    const float vy = .5F * steps.vy[i];
-    places.x[i] = x + ux + vx;
-    places.y[i] = y + uy + vy;
-    places.x[SIZE + i] = x - ux + vx;
-    places.y[SIZE + i] = y - uy + vy;
-    places.x[2 * SIZE + i] = x - ux - vx;
-    places.y[2 * SIZE + i] = y - uy - vy;
-    places.x[3 * SIZE + i] = x + ux - vx;
-    places.y[3 * SIZE + i] = y + uy - vy;
+    const float u = SQUARES[k].u;
+    const float v = SQUARES[k].v;
+    for (std::size_t i = 0; i < SIZE; ++i)
+    {
+      places.x[k * SIZE + i] = x + u * steps.ux[i] + v * steps.vx[i];
+      places.y[k * SIZE + i] = y + u * steps.uy[i] + v * steps.vy[i];
+    }
   }
-  std::array<float, 4 * SIZE> values;
+  std::array<float, SQUARES.size() * SIZE> values;
   sampleGreys(grey, places, values);
+  std::array<float, SIZE> light;  // the darkest of the light squares, as seen with the sign of the first two
+  std::array<float, SIZE> dark;
+  std::array<float, SIZE> sign;
   for (std::size_t i = 0; i < SIZE; ++i)
   {
-    const float sign = values[i] > values[SIZE + i] ? 1 : -1;
-    const float light = std::min(sign * values[i], sign * values[2 * SIZE + i]);
-    const float dark = std::max(sign * values[SIZE + i], sign * values[3 * SIZE + i]);
-    alternate[i] = light - dark >= least_gap ? 1 : 0;
+    sign[i] = values[i] > values[SIZE + i] ? 1.F : -1.F;
+    light[i] = sign[i] * values[i];
+    dark[i] = sign[i] * values[SIZE + i];
+  }
+  for (std::size_t k = 2; k < SQUARES.size(); ++k)
+  {
+    for (std::size_t i = 0; i < SIZE; ++i)
+    {
+      const float value = sign[i] * values[k * SIZE + i];
+      light[i] = SQUARES[k].is_like_first ? std::min(light[i], value) : light[i];
+      dark[i] = SQUARES[k].is_like_first ? dark[i] : std::max(dark[i], value);
+    }
+  }
+  for (std::size_t i = 0; i < SIZE; ++i)
+  {
+    gaps[i] = light[i] - dark[i];
   }
 }
 
@@ -118,19 +109,16 @@ class FrameSearch
   /** Looks at those added since the last look. */
   bool judge(Seed& seed)
   {
-    std::array<int, Steps::SIZE> alternate;
-    judgeSquares(grey_, center_, steps_, least_gap_, alternate);
-    const std::size_t count = count_;
+    std::array<float, Steps::SIZE> gaps;
+    measureGaps(grey_, center_, steps_, gaps);
+    const auto end = gaps.begin() + count_;
     count_ = 0;
-    for (std::size_t i = 0; i < count; ++i)
+    const auto gap = std::find_if(gaps.begin(), end, [this](float value) { return value >= least_gap_; });
+    if (gap != end)
     {
-      const LocalFrame frame{center_, {steps_.ux[i], steps_.uy[i]}, {steps_.vx[i], steps_.vy[i]}};
-      const float gap = alternate[i] != 0 ? alternation(grey_, frame, least_gap_) : 0;
-      if (gap >= least_gap_)
-      {
-        seed = {frame, true, static_cast<int>(gap)};
-        return true;
-      }
+      const std::size_t i = gap - gaps.begin();
+      seed = {{center_, {steps_.ux[i], steps_.uy[i]}, {steps_.vx[i], steps_.vy[i]}}, true, static_cast<int>(*gap)};
+      return true;
     }
     return false;
   }
