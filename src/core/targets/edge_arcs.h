@@ -20,8 +20,8 @@ struct EdgeArc
   cv::Point2d inwards;  ///< unit vector towards the concave side
 };
 
-/** The arcs of an image, and what leads to them. It may serve for the next image: as much memory asked of the system
- * anew, page by page, took a third of the CPU time on clutter. */
+/** The arcs of an image, and what leads to them. It may serve for the next image: its memory, given back and asked of
+ * the system anew, page by page, took 45 of 59 ms of the search for arcs in dense clutter. */
 struct ArcTrace
 {
   std::vector<Edgel> edgels;
