@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "checkerboards/checkerboards.h"
 #include "lattices.h"
+#include "outdoor_omr/fill_pipeline.h"
+#include "outdoor_omr/settings.h"
+#include "render.h"
 
 using omr::Lattice;
 using omr::SideEvidence;
@@ -27,6 +33,33 @@ Lattice latticeWithout(int rows)
     }
   }
   return lattice;
+}
+
+std::vector<omr::Checkerboard> findIn(const cv::Mat& picture)
+{
+  omr::RegionMap map;
+  omr::FillPipeline("reference").run(picture, omr::Settings(), {}, map);
+  return omr::findCheckerboards(omr::makeFrame(picture), map, omr::Settings());
+}
+
+/** Dots of a radius, relative to the distance of their neighbours, on a white sheet. */
+cv::Mat gridOfDots(double radius, double angle)
+{
+  constexpr int ROWS = 6;
+  constexpr int COLS = 8;
+  const cv::Matx33d to_pixels = omr::test::boardHomography(ROWS, COLS, {210, 170}, 25, angle, 20);
+  omr::test::Render render({420, 340});
+  render.addPolygon({omr::test::project(to_pixels, -1, -1), omr::test::project(to_pixels, COLS + 1, -1),
+                     omr::test::project(to_pixels, COLS + 1, ROWS + 1), omr::test::project(to_pixels, -1, ROWS + 1)},
+                    cv::Scalar::all(240));
+  for (int i = 0; i < ROWS; ++i)
+  {
+    for (int j = 0; j < COLS; ++j)
+    {
+      render.addCircle({j + 0.5, i + 0.5}, radius, to_pixels, cv::Scalar::all(20));
+    }
+  }
+  return render.picture();
 }
 }  // namespace
 
@@ -58,6 +91,40 @@ TEST(BoardJudgement, threeBordersSpeakForABoardThatIsHalfHidden)
   EXPECT_TRUE(omr::isBoard(lattice, {border, border, rim, rim}));
   EXPECT_TRUE(omr::isBoard(doubtful, {border, border, border, rim}));
   EXPECT_FALSE(omr::isBoard(doubtful, {border, border, rim, rim}));
+}
+
+TEST(BoardJudgement, aLatticeWithoutAnyOfItsCornersLiesAcrossAnother)
+{
+  const auto is_board = [](bool keeps_one) {
+    Lattice lattice = latticeWithout(0);
+    const cv::Rect box = lattice.box;
+    for (int i = 0; i < box.height; ++i)
+    {
+      for (int j = 0; j < box.width; ++j)
+      {
+        const int from_end = std::min(i, box.height - 1 - i) + std::min(j, box.width - 1 - j);
+        if (from_end < 3 && !(keeps_one && i + j < 3))
+        {
+          lattice.remove(box.y + i, box.x + j);
+        }
+      }
+    }
+    const SideEvidence border = SideEvidence::border;
+    return omr::isBoard(lattice, {border, border, border, border});
+  };
+  EXPECT_FALSE(is_board(false));
+  EXPECT_TRUE(is_board(true));
+}
+
+TEST(BoardJudgement, aGridOfDotsIsNoBoardThatLiesAcross)
+{
+  for (const double radius : {0.3, 0.35, 0.4, 0.45})
+  {
+    for (const double angle : {0, 20, 45})
+    {
+      EXPECT_TRUE(findIn(gridOfDots(radius, angle)).empty()) << radius << ", " << angle << " degrees";
+    }
+  }
 }
 
 int main(int argc, char** argv)

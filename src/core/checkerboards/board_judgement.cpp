@@ -1,6 +1,8 @@
 #include "board_judgement.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 #include "border.h"
 #include "lattice_evidence.h"
@@ -41,6 +43,32 @@ bool hasSizeOfBoard(const Lattice& lattice)
   const int shorter = std::min(lattice.box.width, lattice.box.height);
   const int longer = std::max(lattice.box.width, lattice.box.height);
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE;
+}
+
+/**
+ * Whether the found corners leave all four corners of the lattice empty: the gaps of a grid of dots make a checkerboard
+ * that lies across it. Of 2546 boards the emptiest one lacks 0.2 of the shorter side there; of 44 drawn grids of dots
+ * 11 were boards, which lack 0.28 and more.
+ */
+bool liesAcross(const Lattice& lattice)
+{
+  const cv::Rect& box = lattice.box;
+  const int most = std::max(2, std::min(box.width, box.height) / 4);
+  const std::array<cv::Point, 4> ends = {box.tl(), cv::Point(box.x, box.br().y - 1), cv::Point(box.br().x - 1, box.y),
+                                         box.br() - cv::Point(1, 1)};
+  return std::none_of(ends.begin(), ends.end(), [&](const cv::Point& end) {
+    for (int i = box.y; i < box.br().y; ++i)
+    {
+      for (int j = box.x; j < box.br().x; ++j)
+      {
+        if (lattice.found(i, j) && std::abs(i - end.y) + std::abs(j - end.x) <= most)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  });
 }
 
 float maxDoubt(int borders)
@@ -86,7 +114,7 @@ bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides)
   const bool goes_on = std::count(sides.begin(), sides.end(), SideEvidence::none) > 0;
   const auto cuts = std::count(sides.begin(), sides.end(), SideEvidence::cut);
   const bool fills_picture = cuts == 4;
-  return hasSizeOfBoard(lattice) && evidence.fill >= MIN_FILL &&
+  return hasSizeOfBoard(lattice) && !liesAcross(lattice) && evidence.fill >= MIN_FILL &&
          evidence.doubt() <= maxDoubt(static_cast<int>(borders)) &&
          (borders > 0 || isClear(lattice, evidence, cuts > 0)) && !goes_on &&
          (!fills_picture || evidence.unevenness <= MAX_CUT_UNEVENNESS) && height >= MIN_SQUARE &&
@@ -110,7 +138,7 @@ bool isBoardOfEdges(const Lattice& lattice, const std::array<SideEvidence, 4>& s
   const Evidence evidence = latticeEvidence(lattice);
   // With cut or narrow rim squares no border is where the lattice has it: of 138 photographs of boards 109 -> 120.
   const bool whole = lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL;
-  return hasSizeOfBoard(lattice) && ends_with_corners && evidence.fill >= MIN_READ_FILL &&
+  return hasSizeOfBoard(lattice) && !liesAcross(lattice) && ends_with_corners && evidence.fill >= MIN_READ_FILL &&
          evidence.unevenness <= MAX_READ_UNEVENNESS && count(SideEvidence::none) == 0 &&
          (whole || count(SideEvidence::doubtful_border) >= MIN_BORDERS);
 }
