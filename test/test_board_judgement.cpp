@@ -42,21 +42,29 @@ std::vector<omr::Checkerboard> findIn(const cv::Mat& picture)
   return omr::findCheckerboards(omr::makeFrame(picture), map, omr::Settings());
 }
 
-/** Dots of a radius, relative to the distance of their neighbours, on a white sheet. */
-cv::Mat gridOfDots(double radius, double angle)
+enum class Places
+{
+  all,
+  every_other  // as the dark squares of a board
+};
+
+/** Dots on a sheet, of a radius relative to the sides of squares. */
+cv::Mat gridOfDots(Places places, double radius, double angle, double sheet = 240, double ink = 20)
 {
   constexpr int ROWS = 6;
-  constexpr int COLS = 8;
+  constexpr int COLS = 9;
   const cv::Matx33d to_pixels = omr::test::boardHomography(ROWS, COLS, {210, 170}, 25, angle, 20);
   omr::test::Render render({420, 340});
-  render.addPolygon({omr::test::project(to_pixels, -1, -1), omr::test::project(to_pixels, COLS + 1, -1),
-                     omr::test::project(to_pixels, COLS + 1, ROWS + 1), omr::test::project(to_pixels, -1, ROWS + 1)},
-                    cv::Scalar::all(240));
+  const auto at = [&](double x, double y) { return omr::test::project(to_pixels, x, y); };
+  render.addPolygon({at(-1, -1), at(COLS + 1, -1), at(COLS + 1, ROWS + 1), at(-1, ROWS + 1)}, cv::Scalar::all(sheet));
   for (int i = 0; i < ROWS; ++i)
   {
     for (int j = 0; j < COLS; ++j)
     {
-      render.addCircle({j + 0.5, i + 0.5}, radius, to_pixels, cv::Scalar::all(20));
+      if (places == Places::all || (i + j) % 2 == 0)
+      {
+        render.addCircle({j + 0.5, i + 0.5}, radius, to_pixels, cv::Scalar::all(ink));
+      }
     }
   }
   return render.picture();
@@ -122,7 +130,19 @@ TEST(BoardJudgement, aGridOfDotsIsNoBoardThatLiesAcross)
   {
     for (const double angle : {0, 20, 45})
     {
-      EXPECT_TRUE(findIn(gridOfDots(radius, angle)).empty()) << radius << ", " << angle << " degrees";
+      EXPECT_TRUE(findIn(gridOfDots(Places::all, radius, angle)).empty()) << radius << ", " << angle << " degrees";
+    }
+  }
+}
+
+TEST(BoardJudgement, dotsInThePlacesOfSquaresAreNoBoard)
+{
+  for (const double radius : {0.4, 0.48, 0.54, 0.6})
+  {
+    for (const double angle : {0, 20, 45})
+    {
+      EXPECT_TRUE(findIn(gridOfDots(Places::every_other, radius, angle)).empty()) << radius << ", " << angle;
+      EXPECT_TRUE(findIn(gridOfDots(Places::every_other, radius, angle, 30, 230)).empty()) << "light, " << radius;
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "lattice_gaps.h"
 #include "lattice_growth.h"
 #include "lattice_seam.h"
+#include "square_shape.h"
 
 namespace omr
 {
@@ -182,7 +183,10 @@ void findBoards(const std::vector<Seed>& seeds, CornerLooker& looker, SearchMap&
     BoardCandidate candidate{lattice, sides, boardOutline(lattice), {}};
     map.close(candidate.outline);
     looker.setLooksLeft(looks);  // only looks in vain count
-    addCandidate(std::move(candidate), candidates);
+    if (!isOfDots(looker.frame(), lattice))
+    {
+      addCandidate(std::move(candidate), candidates);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "local_frame.h"
 #include "median.h"
 #include "saturated_islands.h"
+#include "square_shape.h"
 
 namespace omr
 {
@@ -110,25 +111,6 @@ bool findDiagonals(const std::vector<cv::Point2f>& steps, cv::Point2f& first, cv
   return false;
 }
 
-/** Which part of a way is dark. */
-float darkShare(const Frame& frame, const cv::Point2f& from, const cv::Point2f& way, float threshold)
-{
-  constexpr int STEPS = 24;
-  float before = 0;
-  for (int i = 0; i <= STEPS; ++i)
-  {
-    const cv::Point2f point = from + (static_cast<float>(i) / STEPS) * way;
-    const float value = sampleGrey(frame.grey.front(), point.x, point.y);
-    if (value >= threshold)
-    {
-      const float step = i == 0 ? 0 : (threshold - before) / (value - before);
-      return std::max(0.F, static_cast<float>(i - 1) + step) / STEPS;
-    }
-    before = value;
-  }
-  return 1;
-}
-
 /** @return whether the square is smaller than its place, all around. */
 bool measureSquare(const Frame& frame, const cv::Point2f& center, const cv::Point2f& first, const cv::Point2f& second,
                    Place& place)
@@ -138,22 +120,10 @@ bool measureSquare(const Frame& frame, const cv::Point2f& center, const cv::Poin
   const float threshold = (dark + 255) / 2;
   place.frame = {center, 0.5F * (first + second), 0.5F * (first - second)};
   place.height = squareHeight(place.frame);
-  float corner = 0;
-  float side = 0;
-  for (const float sign : {-1.F, 1.F})
-  {
-    for (const cv::Point2f& diagonal : {first, second})
-    {
-      corner += darkShare(frame, center, 0.5F * sign * diagonal, threshold) / 4;
-    }
-    for (const cv::Point2f& step : {place.frame.u, place.frame.v})
-    {
-      side += darkShare(frame, center, sign * step, threshold) / 4;
-    }
-  }
-  place.width = 2 * side;
-  place.shape = corner / std::max(1e-3F, place.width);
-  return corner < 1 && place.width < MAX_WIDTH;
+  const SquareReach reach = reachOfSquare(frame.grey.front(), center, first, second, threshold, true);
+  place.width = reach.side;
+  place.shape = reach.shape();
+  return reach.corner < 1 && place.width < MAX_WIDTH;
 }
 
 std::vector<Place> findPlaces(const Frame& frame, const SearchMap& open)
