@@ -21,6 +21,11 @@ constexpr int FACTOR = 2;
 // Distance of the edgels to their boundaries, most: sharp ones of equal width have .02 to .095, a painted rose .13.
 constexpr double MAX_RMS = .1;         // [px]
 constexpr double RELATIVE_RMS = .002;  // more, relative to the outer radius
+// The same of four very clear rings and more, as on a pipe: four more are found in 1105 scenes and A, all of them
+// right.
+constexpr double MAX_CLEAR_RMS = .13;  // [px]
+constexpr int MANY_RINGS = 4;
+constexpr double CLEARNESS = .95;
 // Of a spot's rarer kind of edges, relative to its deviation: one of 160 spots that are targets has less, of the others
 // four of five on doe scenes and a third in clutter.
 constexpr double LEAST_OTHER_KIND = .7;
@@ -97,7 +102,9 @@ bool growEnlarged(const cv::Mat& bgr, RingSeed seed, RingCandidate& candidate)
 
 bool isSmallTarget(const RingCandidate& candidate, int min_rings)
 {
-  return isTarget(candidate, min_rings) && candidate.rings.rms < MAX_RMS + RELATIVE_RMS * candidate.rings.radii.back();
+  const bool is_clear = candidate.ring_count >= MANY_RINGS && candidate.evidence * candidate.visible > CLEARNESS;
+  return isTarget(candidate, min_rings) &&
+         candidate.rings.rms < (is_clear ? MAX_CLEAR_RMS : MAX_RMS) + RELATIVE_RMS * candidate.rings.radii.back();
 }
 }  // namespace
 
