@@ -61,10 +61,10 @@ TEST(RingAcceptance, veryClearRingsMayFitWorseAsOnABentSheet)
     return omr::isTarget(candidate, 3);
   };
   EXPECT_TRUE(fits(4, .88, .35));
-  EXPECT_FALSE(fits(4, .88, .4));
-  EXPECT_TRUE(fits(4, .97, .4));
+  EXPECT_FALSE(fits(4, .88, .38));
+  EXPECT_TRUE(fits(4, .97, .38));
   EXPECT_FALSE(fits(4, .97, .45));
-  EXPECT_FALSE(fits(3, .97, .4));
+  EXPECT_FALSE(fits(3, .97, .38));
 }
 
 TEST(RingAcceptance, veryClearRingsMayBeSeenInAWiderView)

@@ -19,10 +19,11 @@ constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
 // Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
 // 42 px wide. Small ones must be very clear, unless all are read and one has a hue: at 15 to 17 px these eyes have .89
 // to .94, targets below 30 px .956 and more. An eye of 19 px has .97, but no colour in its middle: the disk of small
-// ones must be read. In 1040 drawn and 65 path-traced scenes 20 of three hues and less are clear enough so, all of them
+// ones must be read. In 1040 drawn and 65 path-traced scenes 10 of them are clear enough so, all of them
 // right, and nothing more in 2138 drawings and photographs.
 constexpr double MEDIUM_DIAMETER = 50;  // [px]
 constexpr double SMALL_DIAMETER = 30;   // [px]
+constexpr double EYE_DIAMETER = 20;     // below it they pass for rings with a hue [px]
 // Clearness: evidence x visible share. With unknown rings the least: lenses, eyes and signs have rings too, and no
 // letters.
 constexpr double CLEAR = .85;
@@ -65,10 +66,9 @@ bool fitsClosely(const RingCandidate& candidate)
 /** Whether small rings, each with its letter, are clear enough: eyes and lenses have no hue. */
 bool isKnownSmall(const Target& target, const RingCandidate& candidate)
 {
-  const double clearness = candidate.evidence * candidate.visible;
-  const Rings& rings = candidate.rings;
-  return hasHue(target.colors) && clearness > CLEAR && rings.rms < HALF_READ_RMS + RELATIVE_RMS * rings.radii.back() &&
-         (candidate.is_explained || narrowestRing(rings.radii) > NARROWEST_WIDTH);
+  return hasHue(target.colors) && candidate.evidence * candidate.visible > CLEAR && fitsClosely(candidate) &&
+         2 * candidate.rings.radii.back() > EYE_DIAMETER &&
+         (candidate.is_explained || narrowestRing(candidate.rings.radii) > NARROWEST_WIDTH);
 }
 
 /**
