@@ -79,6 +79,16 @@ Placed place(const TargetScene& scene, const cv::Mat& image, omr::AngleBins agre
       omr::placeRings(image, std::vector<Boundary>(placed.radii.size(), boundary), placed.family, placed.radii);
   return placed;
 }
+
+omr::RingCandidate grown(const TargetScene& scene, const cv::Mat& image)
+{
+  omr::EdgelMap map(image);
+  RingFamily family;
+  family.center = projectedCenter(scene);
+  omr::RingCandidate candidate;
+  EXPECT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+  return candidate;
+}
 }  // namespace
 
 TEST(RingPlacement, isRightToThreeHundredthsOfAPixel)
@@ -167,11 +177,7 @@ TEST(RingPlacement, whatThePixelsDoNotPlaceIsNoTarget)
 {
   const TargetScene scene;
   const cv::Mat image = renderTarget(scene);
-  omr::EdgelMap map(image);
-  RingFamily family;
-  family.center = projectedCenter(scene);
-  omr::RingCandidate candidate;
-  ASSERT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+  const omr::RingCandidate candidate = grown(scene, image);
   EXPECT_EQ(1U, omr::readTargets(image, {candidate}, 3).size());
   EXPECT_EQ(1U, omr::readTargets({}, {candidate}, 3).size()) << "no pixels to ask";
   EXPECT_EQ(0U, omr::readTargets(cv::Mat(image.size(), CV_8UC3, cv::Scalar(90, 90, 90)), {candidate}, 3).size());
@@ -185,11 +191,7 @@ TEST(RingPlacement, ofSmallRingsThatAreLessClearAllAreReadAndOneHasAHue)
     scene.radii = {4.5, 9, 13.5};
     scene.sheet_half_side = 20;
     const cv::Mat image = renderTarget(scene);
-    omr::EdgelMap map(image);
-    RingFamily family;
-    family.center = projectedCenter(scene);
-    omr::RingCandidate candidate;
-    EXPECT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+    omr::RingCandidate candidate = grown(scene, image);
     candidate.evidence = evidence;
     return !omr::readTargets(image, {candidate}, 3).empty();
   };
@@ -207,11 +209,7 @@ TEST(RingPlacement, aDiskThatSomethingHidesMayBeUnknownWhereTheOthersAreCertain)
     scene.radii = {6, 12, 18};
     scene.sheet_half_side = 25;
     const cv::Mat image = renderTarget(scene);
-    omr::EdgelMap map(image);
-    RingFamily family;
-    family.center = projectedCenter(scene);
-    omr::RingCandidate candidate;
-    EXPECT_TRUE(omr::growCandidate(map, image, family, scene.radii, candidate));
+    omr::RingCandidate candidate = grown(scene, image);
     candidate.evidence = .8;
     candidate.boundaries.front().shown = is_disk_shown;
     const std::vector<omr::Target> targets = omr::readTargets(image, {candidate}, 3);

@@ -135,11 +135,6 @@ std::size_t findMerged(const std::vector<Boundary>& boundaries, std::string& key
   return boundaries.size();
 }
 
-bool fitsClosely(const Rings& rings)
-{
-  return rings.rms < CLOSE_RMS + CLOSE_RELATIVE_RMS * rings.radii.back();
-}
-
 /** The key's letters, without the boundaries between equal ones and without halos. */
 KeyReading readColors(const RingProfile& profile, bool is_close, std::vector<Boundary>& boundaries,
                       std::vector<double>& radii)
@@ -292,6 +287,11 @@ bool hidesRings(const RingCandidate& candidate)
                                  : std::clamp(MOST_UNEXPLAINED_WIDTH / width, MOST_UNEXPLAINED, MOST_UNEXPLAINED_SHARP);
   return (width < NARROW && !candidate.is_explained && unexplained(*candidate.profile, radii) > most) ||
          showsArcBeyond(*candidate.profile, radii, candidate.profile_scale);
+}
+
+bool fitsClosely(const Rings& rings)
+{
+  return rings.rms < CLOSE_RMS + CLOSE_RELATIVE_RMS * rings.radii.back();
 }
 
 }  // namespace omr

@@ -16,6 +16,9 @@ std::string readLetters(RingCandidate& candidate);
  */
 bool hidesRings(const RingCandidate& candidate);
 
+/** Whether the edgels lie so close to the circles that letters may be clear, though they explain the rings worse. */
+bool fitsClosely(const Rings& rings);
+
 }  // namespace omr
 
 #endif

@@ -19,8 +19,8 @@ constexpr double RELATIVE_RMS = .001;  // more, relative to the outer radius
 // Of three rings below this all are to be read, or all but one of very clear ones: the eyes of ultrasonic sensors are
 // 42 px wide. Small ones must be very clear, unless all are read and one has a hue: at 15 to 17 px these eyes have .89
 // to .94, targets below 30 px .956 and more. An eye of 19 px has .97, but no colour in its middle: the disk of small
-// ones must be read. In 1040 drawn and 65 path-traced scenes 10 of them are clear enough so, all of them
-// right, and nothing more in 2138 drawings and photographs.
+// ones must be read. In 1040 drawn and 65 path-traced scenes 10 of them are clear enough so, all of them right, and
+// nothing more in 2138 drawings and photographs.
 constexpr double MEDIUM_DIAMETER = 50;  // [px]
 constexpr double SMALL_DIAMETER = 30;   // [px]
 constexpr double EYE_DIAMETER = 20;     // below it they pass for rings with a hue [px]
@@ -58,15 +58,10 @@ bool hasHue(const std::string& letters)
   return letters.find_first_of("RGB") != std::string::npos;
 }
 
-bool fitsClosely(const RingCandidate& candidate)
-{
-  return candidate.rings.rms < HALF_READ_RMS + RELATIVE_RMS * candidate.rings.radii.back();
-}
-
 /** Whether small rings, each with its letter, are clear enough: eyes and lenses have no hue. */
 bool isKnownSmall(const Target& target, const RingCandidate& candidate)
 {
-  return hasHue(target.colors) && candidate.evidence * candidate.visible > CLEAR && fitsClosely(candidate) &&
+  return hasHue(target.colors) && candidate.evidence * candidate.visible > CLEAR && fitsClosely(candidate.rings) &&
          2 * candidate.rings.radii.back() > EYE_DIAMETER &&
          (candidate.is_explained || narrowestRing(candidate.rings.radii) > NARROWEST_WIDTH);
 }
@@ -77,7 +72,8 @@ bool isKnownSmall(const Target& target, const RingCandidate& candidate)
  */
 bool isCoveredInPart(const Target& target, const RingCandidate& candidate)
 {
-  return candidate.is_certain && !candidate.boundaries.front().shown && hasHue(target.colors) && fitsClosely(candidate);
+  return candidate.is_certain && !candidate.boundaries.front().shown && hasHue(target.colors) &&
+         fitsClosely(candidate.rings);
 }
 
 /**
