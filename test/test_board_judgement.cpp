@@ -35,11 +35,16 @@ Lattice latticeWithout(int rows)
   return lattice;
 }
 
+/** Boards and sections. */
 std::vector<omr::Checkerboard> findIn(const cv::Mat& picture)
 {
   omr::RegionMap map;
   omr::FillPipeline("reference").run(picture, omr::Settings(), {}, map);
-  return omr::findCheckerboards(omr::makeFrame(picture), map, omr::Settings());
+  std::vector<omr::Checkerboard> sections;
+  std::vector<omr::Checkerboard> found =
+      omr::findCheckerboards(omr::makeFrame(picture), map, omr::Settings(), {}, &sections);
+  found.insert(found.end(), sections.begin(), sections.end());
+  return found;
 }
 
 enum class Places

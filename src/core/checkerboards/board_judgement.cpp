@@ -45,11 +45,24 @@ bool hasSizeOfBoard(const Lattice& lattice)
   return shorter >= MIN_SHORT_SIDE && longer >= MIN_LONG_SIDE && longer <= MAX_SIDE;
 }
 
-/**
- * Whether the found corners leave all four corners of the lattice empty: the gaps of a grid of dots make a checkerboard
- * that lies across it. Of 2546 boards the emptiest one lacks 0.2 of the shorter side there; of 44 drawn grids of dots
- * 11 were boards, which lack 0.28 and more.
- */
+float maxDoubt(int borders)
+{
+  return borders == 4 ? MAX_BORDERED_DOUBT : borders == 3 ? MAX_MOSTLY_BORDERED_DOUBT : MAX_DOUBT;
+}
+
+/** Whether the corners alone speak for a board, with no border seen. */
+bool isClear(const Lattice& lattice, const Evidence& evidence, bool is_cut)
+{
+  if (is_cut && evidence.fill < MIN_CUT_FILL)
+  {
+    return false;
+  }
+  return evidence.correlation >= BORDERLESS_CORRELATION ||
+         (lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL);
+}
+
+}  // namespace
+
 bool liesAcross(const Lattice& lattice)
 {
   const cv::Rect& box = lattice.box;
@@ -70,24 +83,6 @@ bool liesAcross(const Lattice& lattice)
     return false;
   });
 }
-
-float maxDoubt(int borders)
-{
-  return borders == 4 ? MAX_BORDERED_DOUBT : borders == 3 ? MAX_MOSTLY_BORDERED_DOUBT : MAX_DOUBT;
-}
-
-/** Whether the corners alone speak for a board, with no border seen. */
-bool isClear(const Lattice& lattice, const Evidence& evidence, bool is_cut)
-{
-  if (is_cut && evidence.fill < MIN_CUT_FILL)
-  {
-    return false;
-  }
-  return evidence.correlation >= BORDERLESS_CORRELATION ||
-         (lattice.count() >= BORDERLESS_CORNERS && evidence.fill >= BORDERLESS_FILL);
-}
-
-}  // namespace
 
 bool isOvergrown(const Lattice& lattice)
 {

@@ -18,6 +18,13 @@ bool isOvergrown(const Lattice& lattice);
 /** Whether a lattice is worth the looks beyond its gaps: it has a border somewhere, or very clear corners. */
 bool mayBePart(const Lattice& lattice, CornerLooker& looker);
 
+/**
+ * Whether the found corners leave all four corners of the lattice empty: the gaps of a grid of dots make a checkerboard
+ * that lies across it. Of 2546 boards the emptiest one lacks 0.2 of the shorter side there; of 44 drawn grids of dots
+ * 11 were boards, which lack 0.28 and more.
+ */
+bool liesAcross(const Lattice& lattice);
+
 /** Whether a lattice whose extent is settled is a board. */
 bool isBoard(const Lattice& lattice, const std::array<SideEvidence, 4>& sides);
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "board_judgement.h"
 #include "board_search.h"
 #include "board_sections.h"
 #include "checkerboard_order.h"
@@ -22,6 +23,7 @@
 #include "saddle_groups.h"
 #include "search_map.h"
 #include "size_certainty.h"
+#include "square_shape.h"
 
 namespace omr
 {
@@ -121,8 +123,11 @@ std::vector<Checkerboard> finishSections(const BoardSections& sections, const st
   std::vector<BoardCandidate> candidates;
   for (const Lattice& lattice : sections.beside(outlines))
   {
-    candidates.push_back(
-        {lattice, {SideEvidence::none, SideEvidence::none, SideEvidence::none, SideEvidence::none}, {}, {}});
+    if (!liesAcross(lattice) && !isOfDots(frame, lattice))
+    {
+      candidates.push_back(
+          {lattice, {SideEvidence::none, SideEvidence::none, SideEvidence::none, SideEvidence::none}, {}, {}});
+    }
   }
   return finishAll(candidates, frame, regions);
 }

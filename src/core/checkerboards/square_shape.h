@@ -23,9 +23,15 @@ struct SquareReach
 };
 
 /**
+ * Measures a square.
+ *
+ * @param grey          CV_8UC1.
+ * @param center        of the square, inside the picture or not [px].
  * @param first, second from the centre to the next squares of its colour, with which it shares corners [px].
  * @param threshold     between dark and light [grey levels].
  * @param is_dark       whether it is the dark squares' colour.
+ * @return              means over the four corners and the four sides, which end at the next squares' middles: [0, 1]
+ * and [0, 2].
  */
 SquareReach reachOfSquare(const cv::Mat& grey, const cv::Point2f& center, const cv::Point2f& first,
                           const cv::Point2f& second, float threshold, bool is_dark);
