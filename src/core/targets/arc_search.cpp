@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
-#include "block_means.h"
 #include "edge_arcs.h"
 
 namespace omr
@@ -43,7 +43,13 @@ void dropOutside(const cv::Size& image_size, ArcFamily& family)
 void findArcs(const cv::Mat& bgr, int reduction, const cv::Size& size, ArcTrace& trace)
 {
   {
-    EdgelMap map(reduction > 1 ? blockMeans(bgr, reduction, size) : bgr);
+    cv::Mat reduced = bgr;
+    if (reduction > 1)
+    {
+      // Whole blocks of pixels, so that the scale is exact.
+      cv::resize(bgr(cv::Rect(cv::Point(), size * reduction)), reduced, size, 0, 0, cv::INTER_AREA);
+    }
+    EdgelMap map(reduced);
     map.raiseThreshold(STRENGTH);
     edgelsOf(map, size, trace.edgels);
   }  // what the next step does not need is gone before it
