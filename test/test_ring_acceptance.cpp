@@ -52,21 +52,6 @@ TEST(RingAcceptance, manyTurnsOutweighFewDirections)
   EXPECT_FALSE(omr::isTarget(shown(half, 5, .06), 3)) << "an arch";
 }
 
-TEST(RingAcceptance, veryClearRingsMayFitWorseAsOnABentSheet)
-{
-  const auto fits = [](std::size_t count, double clearness, double rms) {
-    omr::RingCandidate candidate = halfHidden(count, rms);
-    candidate.visible = 1;
-    candidate.evidence = clearness;
-    return omr::isTarget(candidate, 3);
-  };
-  EXPECT_TRUE(fits(4, .88, .35));
-  EXPECT_FALSE(fits(4, .88, .38));
-  EXPECT_TRUE(fits(4, .97, .38));
-  EXPECT_FALSE(fits(4, .97, .45));
-  EXPECT_FALSE(fits(3, .97, .38));
-}
-
 TEST(RingAcceptance, veryClearRingsMayBeSeenInAWiderView)
 {
   const auto seenAslant = [](double focal, double radius, double clearness) {

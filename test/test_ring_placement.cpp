@@ -80,6 +80,15 @@ Placed place(const TargetScene& scene, const cv::Mat& image, omr::AngleBins agre
   return placed;
 }
 
+TargetScene threeRings(const std::string& colors, double width)
+{
+  TargetScene scene;
+  scene.colors = colors;
+  scene.radii = {width, 2 * width, 3 * width};
+  scene.sheet_half_side = 3 * width + 7;
+  return scene;
+}
+
 omr::RingCandidate grown(const TargetScene& scene, const cv::Mat& image)
 {
   omr::EdgelMap map(image);
@@ -186,10 +195,7 @@ TEST(RingPlacement, whatThePixelsDoNotPlaceIsNoTarget)
 TEST(RingPlacement, ofSmallRingsThatAreLessClearAllAreReadAndOneHasAHue)
 {
   const auto isTarget = [](const std::string& colors, double evidence) {
-    TargetScene scene;
-    scene.colors = colors;
-    scene.radii = {4.5, 9, 13.5};
-    scene.sheet_half_side = 20;
+    const TargetScene scene = threeRings(colors, 4.5);
     const cv::Mat image = renderTarget(scene);
     omr::RingCandidate candidate = grown(scene, image);
     candidate.evidence = evidence;
@@ -204,10 +210,7 @@ TEST(RingPlacement, ofSmallRingsThatAreLessClearAllAreReadAndOneHasAHue)
 TEST(RingPlacement, aDiskThatSomethingHidesMayBeUnknownWhereTheOthersAreCertain)
 {
   const auto letters = [](const std::string& colors, bool is_disk_shown) {
-    TargetScene scene;
-    scene.colors = colors;
-    scene.radii = {6, 12, 18};
-    scene.sheet_half_side = 25;
+    const TargetScene scene = threeRings(colors, 6);
     const cv::Mat image = renderTarget(scene);
     omr::RingCandidate candidate = grown(scene, image);
     candidate.evidence = .8;

@@ -65,9 +65,6 @@ constexpr double BENT_SLACK = .15;
 // ring off and more.
 constexpr double WIDE_VIEW = 3;  // times as strong a perspective
 constexpr double VERY_CLEAR = .9;
-// Distance of their edgels on a sheet that is bent in more than one direction, more than of others [px]: without it
-// BRBRB of a path-traced scene, which fits to .40 px at 37 px, and a drawn WGWGB are lost, and nothing else.
-constexpr double BENDING_SLACK = .05;
 
 /**
  * Strongest perspective |h| of a plane whose small circles have this aspect: sin(tilt) over the focal length in pixels,
@@ -178,8 +175,7 @@ bool isClear(const RingCandidate& candidate)
                 : candidate.evidence > .84 && candidate.visible > .9 && rings.radii.front() > SMALLEST_DISK;
   }
   const bool is_clear = many && candidate.evidence > .85 && candidate.visible > .9;
-  const double slack = is_clear && isVeryClear(candidate) ? BENDING_SLACK : 0;
-  const bool fits = rings.rms < .25 + slack + (is_clear ? .004 : .0025) * radius;
+  const bool fits = rings.rms < .25 + (is_clear ? .004 : .0025) * radius;
   if (~rings.open != 0)
   {
     return isClearWhereOpen(candidate);
