@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "checkerboards/corner_look.h"
-#include "checkerboards/lattice.h"
-#include "checkerboards/lattice_growth.h"
+#include "checkerboards/corners/corner_look.h"
+#include "checkerboards/lattice/lattice.h"
+#include "checkerboards/lattice/lattice_growth.h"
 
 namespace omr::test
 {

@@ -1,4 +1,4 @@
-#include "targets/arc_families.h"
+#include "targets/seeds/arc_families.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "render_target.h"
-#include "targets/arc_circles.h"
-#include "targets/arc_search.h"
-#include "targets/edge_chains.h"
-#include "targets/pixel_set.h"
+#include "targets/edges/edge_chains.h"
+#include "targets/edges/pixel_set.h"
+#include "targets/seeds/arc_circles.h"
+#include "targets/seeds/arc_search.h"
 
 namespace
 {

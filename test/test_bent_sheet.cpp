@@ -1,11 +1,11 @@
-#include "targets/bent_sheet.h"
+#include "targets/family/bent_sheet.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "targets/bent_distances.h"
-#include "targets/bent_point.h"
+#include "targets/family/bent_distances.h"
+#include "targets/family/bent_point.h"
 
 using omr::BentSheet;
 using omr::RingFamily;

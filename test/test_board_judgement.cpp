@@ -1,4 +1,4 @@
-#include "checkerboards/board_judgement.h"
+#include "checkerboards/judgement/board_judgement.h"
 
 #include <gtest/gtest.h>
 

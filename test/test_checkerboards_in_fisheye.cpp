@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "checkerboards/checkerboards.h"
-#include "checkerboards/corners.h"
-#include "checkerboards/lattice_extent.h"
+#include "checkerboards/lattice/corners.h"
+#include "checkerboards/lattice/lattice_extent.h"
 #include "lattices.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"

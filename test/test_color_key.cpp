@@ -1,4 +1,4 @@
-#include "targets/color_key.h"
+#include "targets/letters/color_key.h"
 
 #include <gtest/gtest.h>
 

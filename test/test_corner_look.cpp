@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "checkerboards/corner_look.h"
-#include "checkerboards/rim_look.h"
+#include "checkerboards/corners/corner_look.h"
+#include "checkerboards/corners/rim_look.h"
 #include "render.h"
 
 using omr::CornerLook;

@@ -5,10 +5,10 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "checkerboards/corner_fit.h"
-#include "checkerboards/corner_look.h"
-#include "checkerboards/corners.h"
-#include "checkerboards/lattice_growth.h"
+#include "checkerboards/corners/corner_fit.h"
+#include "checkerboards/corners/corner_look.h"
+#include "checkerboards/lattice/corners.h"
+#include "checkerboards/lattice/lattice_growth.h"
 #include "render.h"
 
 using omr::CornerLooker;

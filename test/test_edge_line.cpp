@@ -1,13 +1,13 @@
-#include "checkerboards/edge_line.h"
+#include "checkerboards/judgement/edge_line.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <utility>
 
-#include "checkerboards/board_judgement.h"
-#include "checkerboards/edge_growth.h"
-#include "checkerboards/edge_reading.h"
+#include "checkerboards/judgement/board_judgement.h"
+#include "checkerboards/judgement/edge_reading.h"
+#include "checkerboards/lattice/edge_growth.h"
 #include "lattices.h"
 #include "render.h"
 

@@ -1,4 +1,4 @@
-#include "targets/edgels.h"
+#include "targets/edges/edgels.h"
 
 #include <gtest/gtest.h>
 

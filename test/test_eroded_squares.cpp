@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "checkerboards/checkerboards.h"
-#include "checkerboards/eroded_squares.h"
-#include "checkerboards/saturated_islands.h"
+#include "checkerboards/seeds/eroded_squares.h"
+#include "checkerboards/seeds/saturated_islands.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

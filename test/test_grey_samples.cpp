@@ -1,11 +1,11 @@
-#include "checkerboards/grey_samples.h"
+#include "checkerboards/corners/grey_samples.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "checkerboards/corner_ring.h"
-#include "checkerboards/local_frame.h"
+#include "checkerboards/corners/corner_ring.h"
+#include "checkerboards/corners/local_frame.h"
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "checkerboards/checkerboards.h"
-#include "checkerboards/groups.h"
+#include "checkerboards/seeds/groups.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
 #include "render.h"

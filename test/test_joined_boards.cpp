@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "checkerboards/checkerboards.h"
-#include "checkerboards/lattice_seam.h"
+#include "checkerboards/lattice/lattice_seam.h"
 #include "lattices.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"

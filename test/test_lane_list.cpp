@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "targets/lane_list.h"
+#include "targets/edges/lane_list.h"
 
 namespace
 {

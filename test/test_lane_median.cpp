@@ -1,4 +1,4 @@
-#include "targets/lane_median.h"
+#include "targets/boundaries/lane_median.h"
 
 #include <gtest/gtest.h>
 

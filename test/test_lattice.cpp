@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "checkerboards/lattice.h"
-#include "checkerboards/lattice_evidence.h"
-#include "checkerboards/lattice_extent.h"
-#include "checkerboards/lattice_gaps.h"
-#include "checkerboards/lattice_growth.h"
-#include "checkerboards/lattice_model.h"
-#include "checkerboards/lattice_prediction.h"
+#include "checkerboards/lattice/lattice.h"
+#include "checkerboards/lattice/lattice_evidence.h"
+#include "checkerboards/lattice/lattice_extent.h"
+#include "checkerboards/lattice/lattice_gaps.h"
+#include "checkerboards/lattice/lattice_growth.h"
+#include "checkerboards/lattice/lattice_model.h"
+#include "checkerboards/lattice/lattice_prediction.h"
 #include "lattices.h"
 #include "render.h"
 

@@ -1,10 +1,10 @@
-#include "checkerboards/lattice_extent.h"
+#include "checkerboards/lattice/lattice_extent.h"
 
 #include <gtest/gtest.h>
 
-#include "checkerboards/border.h"
-#include "checkerboards/lattice.h"
-#include "checkerboards/lattice_gaps.h"
+#include "checkerboards/lattice/border.h"
+#include "checkerboards/lattice/lattice.h"
+#include "checkerboards/lattice/lattice_gaps.h"
 #include "lattices.h"
 #include "render.h"
 

@@ -1,4 +1,4 @@
-#include "targets/narrow_rings.h"
+#include "targets/letters/narrow_rings.h"
 
 #include <gtest/gtest.h>
 

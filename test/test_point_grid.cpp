@@ -1,4 +1,4 @@
-#include "checkerboards/point_grid.h"
+#include "checkerboards/seeds/point_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "targets/radial_edgels.h"
+#include "targets/family/radial_edgels.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "render_target.h"
-#include "targets/fast_angle.h"
+#include "targets/edges/fast_angle.h"
 
 namespace
 {

@@ -1,10 +1,10 @@
-#include "checkerboards/radial_model.h"
+#include "checkerboards/lattice/radial_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "checkerboards/lattice.h"
+#include "checkerboards/lattice/lattice.h"
 #include "lattices.h"
 
 using omr::CornerLook;

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "checkerboards/regularity.h"
+#include "checkerboards/judgement/regularity.h"
 #include "render.h"
 
 using omr::Region;

@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "checkerboards/rim_look.h"
+#include "checkerboards/corners/rim_look.h"
 #include "render.h"
 
 using omr::Frame;

@@ -1,4 +1,4 @@
-#include "targets/ring_beyond.h"
+#include "targets/boundaries/ring_beyond.h"
 
 #include <gtest/gtest.h>
 

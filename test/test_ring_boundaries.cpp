@@ -1,12 +1,12 @@
-#include "targets/ring_boundaries.h"
+#include "targets/boundaries/ring_boundaries.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "render_target.h"
-#include "targets/ring_candidate.h"
-#include "targets/ring_roundness.h"
+#include "targets/boundaries/ring_roundness.h"
+#include "targets/candidate/ring_candidate.h"
 
 using omr::Boundary;
 

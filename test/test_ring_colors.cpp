@@ -1,4 +1,4 @@
-#include "targets/ring_colors.h"
+#include "targets/letters/ring_colors.h"
 
 #include <gtest/gtest.h>
 

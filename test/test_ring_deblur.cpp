@@ -1,13 +1,13 @@
-#include "targets/ring_deblur.h"
+#include "targets/boundaries/ring_deblur.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "render_target.h"
-#include "targets/color_key.h"
-#include "targets/ring_fit.h"
-#include "targets/ring_letters.h"
+#include "targets/boundaries/ring_fit.h"
+#include "targets/letters/color_key.h"
+#include "targets/letters/ring_letters.h"
 
 namespace
 {

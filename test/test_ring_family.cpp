@@ -3,8 +3,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "targets/bent_refinement.h"
-#include "targets/ring_refinement.h"
+#include "targets/family/bent_refinement.h"
+#include "targets/family/ring_refinement.h"
 
 using omr::BoundaryPoint;
 using omr::RingFamily;

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "render_target.h"
-#include "targets/boundary_arcs.h"
-#include "targets/ring_placement.h"
+#include "targets/boundaries/boundary_arcs.h"
+#include "targets/boundaries/ring_placement.h"
 #include "targets/target_reading.h"
 
 using omr::Boundary;

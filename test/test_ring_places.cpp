@@ -1,4 +1,4 @@
-#include "targets/ring_places.h"
+#include "targets/candidate/ring_places.h"
 
 #include <gtest/gtest.h>
 

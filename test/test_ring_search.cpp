@@ -9,7 +9,7 @@
 #include "outdoor_omr/reference_fill.h"
 #include "outdoor_omr/settings.h"
 #include "render_target.h"
-#include "targets/ring_growth.h"
+#include "targets/candidate/ring_growth.h"
 
 namespace
 {

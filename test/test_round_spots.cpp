@@ -1,4 +1,4 @@
-#include "targets/round_spots.h"
+#include "targets/seeds/round_spots.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "checkerboards/saddle_points.h"
+#include "checkerboards/seeds/saddle_points.h"
 
 #include <gtest/gtest.h>
 

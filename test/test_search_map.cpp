@@ -1,4 +1,4 @@
-#include "checkerboards/search_map.h"
+#include "checkerboards/seeds/search_map.h"
 
 #include <gtest/gtest.h>
 

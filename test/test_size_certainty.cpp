@@ -1,4 +1,4 @@
-#include "checkerboards/size_certainty.h"
+#include "checkerboards/judgement/size_certainty.h"
 
 #include <gtest/gtest.h>
 

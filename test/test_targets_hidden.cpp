@@ -4,8 +4,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "target_views.h"
-#include "targets/ring_candidate.h"
-#include "targets/ring_openness.h"
+#include "targets/candidate/ring_candidate.h"
+#include "targets/candidate/ring_openness.h"
 
 using omr::AngleBins;
 using omr::Target;

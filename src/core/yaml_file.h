@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_YAML_FILE_H
-#define OUTDOOR_OMR_YAML_FILE_H
+#ifndef OUTDOOR_OMR_CORE_YAML_FILE_H
+#define OUTDOOR_OMR_CORE_YAML_FILE_H
 
 #include <yaml-cpp/yaml.h>
 

@@ -14,9 +14,22 @@ CATCH = re.compile(r"\bcatch \(")
 STEPS = ["candidates", "checkerboards", "parts", "targets"]
 
 
+# The folders of a step; each may name those before it, and the files beside the folders all of them.
+LAYERS = {
+    "checkerboards": ["corners", "lattice", "seeds", "judgement"],
+    "targets": ["edges", "family", "seeds", "boundaries", "candidate", "letters"],
+}
+
+
 def other_steps(step):
     """Only detector.cpp may name them all."""
     return re.compile(r'#include "({})/'.format("|".join(other for other in STEPS if other != step)))
+
+
+def later_layers(step, layer):
+    """The layers after this one, and the files beside the folders."""
+    later = LAYERS[step][LAYERS[step].index(layer) + 1:]
+    return re.compile(r'#include "{}/({})'.format(step, "|".join([name + "/" for name in later] + [r"\w+\.h"])))
 
 
 # Folder, what it must not mention, except in these files.
@@ -30,7 +43,11 @@ WALLS = [
     ("src/tools", OPENCL, []),
     ("src/ros", OPENCL, []),
     ("src/ros", CATCH, ["caught.cpp"]),
-] + [(os.path.join("src/core", step), other_steps(step), []) for step in STEPS]
+] + [
+    (os.path.join("src/core", step), other_steps(step), []) for step in STEPS
+] + [
+    (os.path.join("src/core", step, layer), later_layers(step, layer), []) for step in LAYERS for layer in LAYERS[step]
+]
 
 
 def lines_of(folder, exceptions):

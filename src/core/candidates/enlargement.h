@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_ENLARGEMENT_H
-#define OUTDOOR_OMR_ENLARGEMENT_H
+#ifndef OUTDOOR_OMR_CORE_ENLARGEMENT_H
+#define OUTDOOR_OMR_CORE_ENLARGEMENT_H
 
 #include <functional>
 #include <opencv2/core.hpp>

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "board_judgement.h"
-#include "border.h"
-#include "checkerboard_order.h"
-#include "edge_growth.h"
-#include "edge_line.h"
-#include "edge_reading.h"
-#include "lattice_evidence.h"
-#include "lattice_gaps.h"
-#include "lattice_growth.h"
-#include "lattice_seam.h"
-#include "square_shape.h"
+#include "checkerboards/judgement/board_judgement.h"
+#include "checkerboards/judgement/edge_line.h"
+#include "checkerboards/judgement/edge_reading.h"
+#include "checkerboards/lattice/border.h"
+#include "checkerboards/lattice/checkerboard_order.h"
+#include "checkerboards/lattice/edge_growth.h"
+#include "checkerboards/lattice/lattice_evidence.h"
+#include "checkerboards/lattice/lattice_gaps.h"
+#include "checkerboards/lattice/lattice_growth.h"
+#include "checkerboards/lattice/lattice_seam.h"
+#include "checkerboards/seeds/square_shape.h"
 
 namespace omr
 {

@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "board_sections.h"
-#include "corner_look.h"
-#include "groups.h"
-#include "lattice.h"
-#include "lattice_extent.h"
+#include "checkerboards/corners/corner_look.h"
+#include "checkerboards/judgement/board_sections.h"
+#include "checkerboards/lattice/lattice.h"
+#include "checkerboards/lattice/lattice_extent.h"
+#include "checkerboards/seeds/groups.h"
+#include "checkerboards/seeds/search_map.h"
 #include "outdoor_omr/checkerboard.h"
-#include "search_map.h"
 
 namespace omr
 {

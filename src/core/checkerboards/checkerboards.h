@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_CHECKERBOARDS_H
-#define OUTDOOR_OMR_CHECKERBOARDS_H
+#ifndef OUTDOOR_OMR_CORE_CHECKERBOARDS_H
+#define OUTDOOR_OMR_CORE_CHECKERBOARDS_H
 
 #include <functional>
 #include <vector>

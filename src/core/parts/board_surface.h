@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_BOARD_SURFACE_H
-#define OUTDOOR_OMR_BOARD_SURFACE_H
+#ifndef OUTDOOR_OMR_CORE_BOARD_SURFACE_H
+#define OUTDOOR_OMR_CORE_BOARD_SURFACE_H
 
 #include <opencv2/core/affine.hpp>
 

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_PART_HYPOTHESIS_H
-#define OUTDOOR_OMR_PART_HYPOTHESIS_H
+#ifndef OUTDOOR_OMR_CORE_PART_HYPOTHESIS_H
+#define OUTDOOR_OMR_CORE_PART_HYPOTHESIS_H
 
 #include <opencv2/core/affine.hpp>
 #include <vector>

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_PART_MATCH_H
-#define OUTDOOR_OMR_PART_MATCH_H
+#ifndef OUTDOOR_OMR_CORE_PART_MATCH_H
+#define OUTDOOR_OMR_CORE_PART_MATCH_H
 
 #include <vector>
 

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_REPROJECTION_H
-#define OUTDOOR_OMR_REPROJECTION_H
+#ifndef OUTDOOR_OMR_CORE_REPROJECTION_H
+#define OUTDOOR_OMR_CORE_REPROJECTION_H
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/affine.hpp>

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_TARGET_PAIR_H
-#define OUTDOOR_OMR_TARGET_PAIR_H
+#ifndef OUTDOOR_OMR_CORE_TARGET_PAIR_H
+#define OUTDOOR_OMR_CORE_TARGET_PAIR_H
 
 #include "outdoor_omr/camera.h"
 #include "outdoor_omr/parts.h"

@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_YAML_POSE_H
-#define OUTDOOR_OMR_YAML_POSE_H
+#ifndef OUTDOOR_OMR_CORE_YAML_POSE_H
+#define OUTDOOR_OMR_CORE_YAML_POSE_H
 
 #include <opencv2/core.hpp>
 #include <opencv2/core/affine.hpp>

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "arc_search.h"
-#include "ring_places.h"
 #include "ring_search.h"
+#include "targets/candidate/ring_places.h"
+#include "targets/seeds/arc_search.h"
 
 namespace omr
 {

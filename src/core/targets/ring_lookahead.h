@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "edgels.h"
 #include "outdoor_omr/region.h"
-#include "ring_candidate.h"
-#include "ring_seeds.h"
-#include "round_spots.h"
+#include "targets/candidate/ring_candidate.h"
+#include "targets/edges/edgels.h"
+#include "targets/seeds/ring_seeds.h"
+#include "targets/seeds/round_spots.h"
 
 namespace omr
 {

@@ -7,9 +7,9 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "arc_seeds.h"
-#include "ring_places.h"
 #include "small_rings.h"
+#include "targets/candidate/ring_places.h"
+#include "targets/seeds/arc_seeds.h"
 
 namespace omr
 {

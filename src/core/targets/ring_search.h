@@ -4,11 +4,11 @@
 #include <atomic>
 #include <vector>
 
-#include "edgels.h"
 #include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/region.h"
-#include "ring_candidate.h"
 #include "ring_lookahead.h"
+#include "targets/candidate/ring_candidate.h"
+#include "targets/edges/edgels.h"
 
 namespace omr
 {

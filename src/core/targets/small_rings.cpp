@@ -3,9 +3,9 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "arc_seeds.h"
 #include "resized_part.h"
-#include "ring_places.h"
+#include "targets/candidate/ring_places.h"
+#include "targets/seeds/arc_seeds.h"
 
 namespace omr
 {

@@ -3,9 +3,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "edgels.h"
-#include "ring_candidate.h"
-#include "round_spots.h"
+#include "targets/candidate/ring_candidate.h"
+#include "targets/edges/edgels.h"
+#include "targets/seeds/round_spots.h"
 
 namespace omr
 {

@@ -4,12 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "edgels.h"
 #include "resized_part.h"
-#include "ring_candidate.h"
 #include "ring_lookahead.h"
-#include "ring_places.h"
 #include "target_reading.h"
+#include "targets/candidate/ring_candidate.h"
+#include "targets/candidate/ring_places.h"
+#include "targets/edges/edgels.h"
 
 namespace omr
 {

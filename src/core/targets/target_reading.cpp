@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "ring_letters.h"
-#include "ring_placement.h"
+#include "targets/boundaries/ring_placement.h"
+#include "targets/letters/ring_letters.h"
 
 namespace omr
 {

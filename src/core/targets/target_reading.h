@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "outdoor_omr/target.h"
-#include "ring_candidate.h"
+#include "targets/candidate/ring_candidate.h"
 
 namespace omr
 {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "edgels.h"
 #include "ring_search.h"
 #include "soft_targets.h"
 #include "target_reading.h"
+#include "targets/edges/edgels.h"
 
 namespace omr
 {

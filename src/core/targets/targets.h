@@ -1,5 +1,5 @@
-#ifndef OUTDOOR_OMR_TARGETS_H
-#define OUTDOOR_OMR_TARGETS_H
+#ifndef OUTDOOR_OMR_CORE_TARGETS_H
+#define OUTDOOR_OMR_CORE_TARGETS_H
 
 #include <memory>
 #include <vector>
