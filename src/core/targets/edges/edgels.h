@@ -157,16 +157,16 @@ class EdgelMap
     visitWanted(left, top, right, bottom, all, visitor);
   }
 
-  /** The same, without the tiles that are not wanted. @param isWanted(const cv::Rect2d&) where a tile's edgels lie */
+  /** The same, without the tiles that are not wanted. @param is_wanted(const cv::Rect2d&) where a tile's edgels lie */
   template <typename IsWanted, typename Visitor>
-  void visitWanted(double left, double top, double right, double bottom, const IsWanted& isWanted, Visitor&& visitor)
+  void visitWanted(double left, double top, double right, double bottom, const IsWanted& is_wanted, Visitor&& visitor)
   {
     const cv::Rect tiles = tilesOf(left, top, right, bottom);
     for (int row = tiles.y; row < tiles.y + tiles.height; ++row)
     {
       for (int col = tiles.x; col < tiles.x + tiles.width; ++col)
       {
-        if (isWanted(areaOf(col, row)))
+        if (is_wanted(areaOf(col, row)))
         {
           visitTile(col, row, visitor);
         }
