@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "targets/candidate/ring_candidate.h"
+#include "targets/candidate/ring_acceptance.h"
 
 namespace
 {

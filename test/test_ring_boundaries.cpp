@@ -6,7 +6,7 @@
 
 #include "render_target.h"
 #include "targets/boundaries/ring_roundness.h"
-#include "targets/candidate/ring_candidate.h"
+#include "targets/candidate/ring_own_boundary.h"
 
 using omr::Boundary;
 

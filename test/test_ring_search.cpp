@@ -10,6 +10,7 @@
 #include "outdoor_omr/settings.h"
 #include "render_target.h"
 #include "targets/candidate/ring_growth.h"
+#include "targets/edges/look_budget.h"
 
 namespace
 {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "target_views.h"
-#include "targets/candidate/ring_candidate.h"
+#include "targets/candidate/ring_acceptance.h"
 #include "targets/candidate/ring_openness.h"
 
 using omr::AngleBins;

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "ring_search.h"
+#include "targets/candidate/ring_own_boundary.h"
 #include "targets/candidate/ring_places.h"
+#include "targets/edges/look_budget.h"
 #include "targets/seeds/arc_search.h"
 
 namespace omr
 {
-namespace
-{
-constexpr double FAMILIES_SHARE = .4;  // of the looks, for each family
-}  // namespace
-
 void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown)
 {
   grown.settle(growCandidate(grown.map, bgr, seed, is_boundary, grown.candidate), min_rings);

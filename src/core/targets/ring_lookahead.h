@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "outdoor_omr/region.h"
+#include "targets/candidate/ring_acceptance.h"
 #include "targets/candidate/ring_candidate.h"
 #include "targets/edges/edgels.h"
 #include "targets/seeds/ring_seeds.h"
@@ -13,8 +14,6 @@
 
 namespace omr
 {
-constexpr double CONCENTRIC_SHARE = .5;  ///< of the looks, after families and seeds with companions
-
 /** What became of a seed. */
 struct GrownSeed
 {

@@ -1,14 +1,15 @@
 #include "ring_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <utility>
 
 #include "small_rings.h"
+#include "targets/candidate/ring_own_boundary.h"
 #include "targets/candidate/ring_places.h"
+#include "targets/edges/look_budget.h"
 #include "targets/seeds/arc_seeds.h"
 
 namespace omr
@@ -17,19 +18,7 @@ namespace
 {
 constexpr std::size_t MAX_PIECES = 50;  // that are looked at
 constexpr std::size_t MAX_SPOTS = 10;   // that are grown: three of four small targets with a spot are among the first 6
-
-// Of the mean side of a picture, as boundaries are lines: until their last target is found pictures take up to 390 a
-// pixel of it, clutter ten times as many. Beside .6 a pixel of the area, as much at 1080p, and at least 1200000 this
-// search takes 83 % of the time on a photograph of 8 megapixels without a target, 41 and 83 % on two of 640 x 480 and
-// less; of 752 pictures two of textures have a centre elsewhere, by .06 px.
-constexpr double LOOKS_PER_PIXEL = 864;
-constexpr double MIN_LOOKS = 600000;  // seven targets take 500000, however small the picture
-
-// Of the looks may be spent after the pieces with many votes, and after the round seeds that are alone. In clutter the
-// votes are .22 to .26, in targets .25 to .83.
-constexpr double PIECES_SHARE = .8;
-constexpr double SINGLE_SHARE = .95;
-constexpr double MANY_VOTES = .3;
+constexpr double MANY_VOTES = .3;       // in clutter they are .22 to .26, in targets .25 to .83
 
 struct ArcSeed
 {
@@ -252,16 +241,6 @@ class Search
   std::vector<Growth> waiting_;
 };
 }  // namespace
-
-std::size_t allowedLooks(const cv::Size& image_size)
-{
-  return static_cast<std::size_t>(std::max(MIN_LOOKS, LOOKS_PER_PIXEL * std::sqrt(image_size.area())));
-}
-
-std::size_t sharedLooks(const cv::Size& image_size, double share)
-{
-  return static_cast<std::size_t>(share * static_cast<double>(allowedLooks(image_size)));
-}
 
 std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr, const RegionMap& regions,
                                               RoundSeeds seeds, const std::vector<Checkerboard>& boards, int min_rings,

@@ -12,16 +12,8 @@
 
 namespace omr
 {
-/** Looks at edgels (EdgelMap::looks()) that a search in an image may take. */
-std::size_t allowedLooks(const cv::Size& image_size);
-
-/** A share of them. */
-std::size_t sharedLooks(const cv::Size& image_size, double share);
-
 /**
- * Grows the regions that may be part of a target, the most promising first, until allowedLooks() are spent. Families
- * have four tenths of them each, and the rest gets what they leave: in 40 pictures of clutter they take up to .67 in
- * all, and the whole search 1.01, but for round spots, whose growths are few and bounded.
+ * Grows the regions that may be part of a target, the most promising first, until allowedLooks() are spent.
  *
  * @param bgr       H x W, CV_8UC3; the map's image.
  * @param seeds     what is found and grown already; the rest is done here.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "resized_part.h"
+#include "targets/candidate/ring_acceptance.h"
 #include "targets/candidate/ring_places.h"
 #include "targets/seeds/arc_seeds.h"
 

@@ -1,8 +1,9 @@
+#include "ring_acceptance.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "ring_candidate.h"
 #include "ring_openness.h"
 
 namespace omr

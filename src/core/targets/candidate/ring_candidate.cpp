@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "ring_acceptance.h"
 #include "ring_amendment.h"
 #include "ring_openness.h"
+#include "ring_own_boundary.h"
 #include "targets/boundaries/ring_ladder.h"
 #include "targets/family/ring_refinement.h"
 

@@ -34,12 +34,6 @@ AngleBins visibleDirections(const std::vector<Boundary>& boundaries);
 /** Sets visible and evidence as the boundaries have them. */
 void weighEvidence(RingCandidate& candidate);
 
-/** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
-bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
-
-/** Whether the colour changes alike around some of a family's circles: a look without edgels, at large ones only. */
-bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii);
-
 /**
  * Grows a seed to a candidate: edgels give the family, the profile then says which boundaries there are.
  *
@@ -55,21 +49,6 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
  */
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
                    RingCandidate& candidate);
-
-/** Whether the evidence is such as clutter does not give, in nearly all directions or all around in the open ones. */
-bool isClearTarget(const RingCandidate& candidate, int min_rings);
-
-/** The same, or so much shows that it does not matter in how many directions. */
-bool isTarget(const RingCandidate& candidate, int min_rings);
-
-/** Whether there are two clear boundaries of rings so narrow that the blur may hide more. */
-bool mayHideRings(const RingCandidate& candidate);
-
-/** Whether isTarget() may be true of rings that were settled in some directions only. */
-bool maySuffice(const RingCandidate& candidate);
-
-/** Whether it may become true of them, as what is seen so far tells. */
-bool showsEnough(const RingCandidate& candidate);
 
 }  // namespace omr
 

@@ -1,7 +1,8 @@
+#include "ring_own_boundary.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "ring_candidate.h"
 #include "targets/boundaries/ring_boundaries.h"
 
 namespace omr
