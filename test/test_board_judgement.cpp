@@ -87,6 +87,31 @@ TEST(BoardJudgement, tilesThatThePictureCutsAreNoBoard)
   EXPECT_TRUE(is_board(4, SideEvidence::border, SideEvidence::cut)) << "a border";
 }
 
+TEST(BoardJudgement, fewBlurredCornersAreABoardWhereTheyLieEvenly)
+{
+  const auto is_board = [](float unevenness, int hidden) {
+    Lattice lattice = omr::test::latticeOf(4, 6, [&](int col, int row) {
+      const float aside = (3 * col + 2 * row) % 5 < 2 ? unevenness : -unevenness;
+      return 20.F * cv::Point2f(static_cast<float>(col) + aside, static_cast<float>(row) - aside);
+    });
+    const cv::Rect box = lattice.box;
+    for (int i = 0; i < box.area(); ++i)
+    {
+      lattice.at(box.y + i / box.width, box.x + i % box.width).correlation = 0.945F;
+    }
+    for (int j = 0; j < hidden; ++j)
+    {
+      lattice.remove(box.y + 1, box.x + j);
+    }
+    const SideEvidence rim = SideEvidence::rim;
+    return omr::isBoard(lattice, {rim, rim, rim, rim});
+  };
+  EXPECT_TRUE(is_board(0, 0));
+  EXPECT_TRUE(is_board(0.01F, 4));
+  EXPECT_FALSE(is_board(0.08F, 0)) << "uneven";
+  EXPECT_FALSE(is_board(0, 5)) << "too few";
+}
+
 TEST(BoardJudgement, threeBordersSpeakForABoardThatIsHalfHidden)
 {
   const Lattice lattice = latticeWithout(6);
