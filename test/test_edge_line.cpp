@@ -1,4 +1,4 @@
-#include "checkerboards/judgement/edge_line.h"
+#include "checkerboards/lattice/edge_line.h"
 
 #include <gtest/gtest.h>
 

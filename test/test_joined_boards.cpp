@@ -7,6 +7,7 @@
 
 #include "checkerboards/checkerboards.h"
 #include "checkerboards/lattice/lattice_seam.h"
+#include "checkerboards/lattice/lattice_strip.h"
 #include "lattices.h"
 #include "outdoor_omr/fill_pipeline.h"
 #include "outdoor_omr/settings.h"
@@ -69,6 +70,22 @@ TEST(JoinedBoards, aGapOfWholeSquaresPartsThem)
   }
 }
 
+TEST(JoinedBoards, aGapOfWholeSquaresPartsThemWhereMarginsAreNarrow)
+{
+  for (const double ground : {20., 70., 120.})
+  {
+    for (const double margin : {0.05, 0.1, 0.2})
+    {
+      for (const double shift : {0., 0.05})
+      {
+        expectTwo(findPair(16, 1.05, ground, margin, shift), "ground " + std::to_string(ground) + ", margin " +
+                                                                 std::to_string(margin) + ", shift " +
+                                                                 std::to_string(shift));
+      }
+    }
+  }
+}
+
 TEST(JoinedBoards, aGapOfAFractionOfASquarePartsThem)
 {
   for (const double gap : {0.1, 0.25, 0.4})
@@ -97,6 +114,21 @@ TEST(JoinedBoards, aBandHidesTwoLinesOfCornersAsAGapDoes)
     ASSERT_EQ(1u, boards.size()) << width;
     EXPECT_EQ(10, boards[0].cols) << width;
     EXPECT_EQ(width < 1.5, boards[0].size_certain) << width;
+  }
+}
+
+TEST(CoveredBoards, aBandAlongTheSquaresPartsNoBoardThatHasAMargin)
+{
+  const cv::Matx33d place = omr::test::boardHomography(7, 10, {300, 220}, 30, 5);
+  for (const double position : {3.95, 4., 5.})
+  {
+    Render render({600, 440});
+    render.addBoard(7, 10, place);
+    addRectangle(render, place, {position, -2, 1.05, 11}, 100);
+    const std::vector<Checkerboard> boards = find(render);
+    ASSERT_EQ(1u, boards.size()) << position;
+    EXPECT_EQ(10, boards[0].cols) << position;
+    EXPECT_FALSE(boards[0].size_certain) << position;
   }
 }
 
@@ -138,6 +170,27 @@ TEST(CoveredBoards, theWindowOfAMatIsNoMargin)
     EXPECT_EQ(7, boards[0].rows) << grey;
     EXPECT_FALSE(boards[0].size_certain) << grey;
   }
+}
+
+TEST(LatticeStrip, endsABoardWhereTheSquaresAcrossItAreNoWholeOnes)
+{
+  // Two lines of corners are hidden between columns 5 and 8; what lies beyond is displaced [squares].
+  const auto columns_left = [](const std::array<double, 5>& jumps) {
+    omr::Lattice lattice = omr::test::latticeOf(5, 14, [&](int col, int row) {
+      return cv::Point2f(static_cast<float>(50 + 20 * (col + (col > 6 ? jumps[row] : 0))),
+                         static_cast<float>(50 + 20 * row));
+    });
+    for (int row = 0; row < 5; ++row)
+    {
+      lattice.remove(lattice.box.y + row, lattice.box.x + 6);
+      lattice.remove(lattice.box.y + row, lattice.box.x + 7);
+    }
+    omr::splitAtStrips(lattice, omr::makeFrame(cv::Mat(200, 400, CV_8UC3, cv::Scalar::all(128))));
+    return lattice.box.width;
+  };
+  EXPECT_EQ(6, columns_left({0.4, 0.4, 0.42, 0.4, 0.39}));
+  EXPECT_EQ(14, columns_left({0.1, 0.1, 0.1, 0.1, 0.1}));
+  EXPECT_EQ(14, columns_left({0.4, 0.1, 0.8, 0.2, 0.6})) << "the lines disagree";
 }
 
 TEST(LatticeSeam, isWhereAllLinesJumpAlike)

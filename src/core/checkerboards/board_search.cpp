@@ -4,15 +4,16 @@
 #include <utility>
 
 #include "checkerboards/judgement/board_judgement.h"
-#include "checkerboards/judgement/edge_line.h"
 #include "checkerboards/judgement/edge_reading.h"
 #include "checkerboards/lattice/border.h"
 #include "checkerboards/lattice/checkerboard_order.h"
 #include "checkerboards/lattice/edge_growth.h"
+#include "checkerboards/lattice/edge_line.h"
 #include "checkerboards/lattice/lattice_evidence.h"
 #include "checkerboards/lattice/lattice_gaps.h"
 #include "checkerboards/lattice/lattice_growth.h"
 #include "checkerboards/lattice/lattice_seam.h"
+#include "checkerboards/lattice/lattice_strip.h"
 #include "checkerboards/seeds/square_shape.h"
 
 namespace omr
@@ -97,7 +98,9 @@ bool settleByCorners(Lattice& lattice, CornerLooker& looker, SearchMap& map, std
   jumpGaps(lattice, looker);
   fillHoles(lattice, looker);
   splitAtBorders(lattice, looker.frame());
-  const std::vector<Seam> seams = splitAtSeams(lattice);
+  std::vector<Seam> seams = splitAtSeams(lattice);
+  const std::vector<Seam> gaps = splitAtStrips(lattice, looker.frame());
+  seams.insert(seams.end(), gaps.begin(), gaps.end());
   dropOutliers(lattice);
   sides = settleExtent(lattice, looker);
   settleRims(looker.frame(), lattice, sides);

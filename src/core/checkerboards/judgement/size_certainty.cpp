@@ -7,8 +7,8 @@
 
 #include "checkerboards/corners/corner_ring.h"
 #include "checkerboards/corners/edge_look.h"
+#include "checkerboards/lattice/edge_line.h"
 #include "checkerboards/lattice/lattice_model.h"
-#include "edge_line.h"
 #include "median.h"
 
 namespace omr

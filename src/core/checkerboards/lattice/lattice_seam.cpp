@@ -227,15 +227,20 @@ bool hasSeam(const Lattice& lattice)
   return findSeam(lattice).has_value();
 }
 
+void dropBeyond(Lattice& lattice, const Seam& seam)
+{
+  while (lineIndex(lattice, seam.beyond, 0) != seam.line + inwards(seam.beyond))
+  {
+    dropLine(lattice, seam.beyond);
+  }
+}
+
 std::vector<Seam> splitAtSeams(Lattice& lattice)
 {
   std::vector<Seam> seams;
   for (std::optional<Seam> seam = findSeam(lattice); seam; seam = findSeam(lattice))
   {
-    while (lineIndex(lattice, seam->beyond, 0) != seam->line + inwards(seam->beyond))
-    {
-      dropLine(lattice, seam->beyond);
-    }
+    dropBeyond(lattice, *seam);
     seams.push_back(*seam);
   }
   return seams;

@@ -24,7 +24,10 @@ struct Seam
  */
 bool hasSeam(const Lattice& lattice);
 
-/** Takes back what lies on seams and beyond. @return the seams. */
+/** Takes back what lies on a seam and beyond. */
+void dropBeyond(Lattice& lattice, const Seam& seam);
+
+/** The same for all of them. @return the seams. */
 std::vector<Seam> splitAtSeams(Lattice& lattice);
 
 }  // namespace omr

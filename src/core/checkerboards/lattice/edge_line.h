@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "checkerboards/lattice/lattice.h"
-#include "checkerboards/lattice/lattice_extent.h"
-#include "checkerboards/lattice/lattice_model.h"
-#include "checkerboards/lattice/lattice_side.h"
+#include "lattice.h"
+#include "lattice_extent.h"
+#include "lattice_model.h"
+#include "lattice_side.h"
 #include "outdoor_omr/frame.h"
 
 namespace omr

@@ -6,7 +6,7 @@
 
 #include "checkerboards/corners/corner_ring.h"
 #include "checkerboards/corners/edge_look.h"
-#include "checkerboards/lattice/lattice_evidence.h"
+#include "lattice_evidence.h"
 #include "median.h"
 
 namespace omr
