@@ -7,6 +7,7 @@
 #include "render_target.h"
 #include "targets/boundaries/ring_fit.h"
 #include "targets/letters/color_key.h"
+#include "targets/letters/hidden_rings.h"
 #include "targets/letters/ring_letters.h"
 
 namespace
@@ -191,10 +192,22 @@ TEST(RingDeblur, inksThatExplainNarrowRingsHideNone)
 {
   omr::RingCandidate candidate;
   candidate.rings.radii = {24, 28, 36};
+  candidate.boundaries.resize(3);
   candidate.profile = std::make_shared<omr::RingProfile>(fourRings(100));
-  EXPECT_TRUE(omr::hidesRings(candidate)) << "two rings are one";
+  EXPECT_TRUE(omr::hidesRings(candidate, std::string(candidate.rings.radii.size(), 'W'))) << "two rings are one";
   candidate.is_explained = true;
-  EXPECT_FALSE(omr::hidesRings(candidate));
+  EXPECT_FALSE(omr::hidesRings(candidate, std::string(candidate.rings.radii.size(), 'W')));
+}
+
+TEST(RingDeblur, whatHasNoLetterAndIsAsWideAsTwoIsTwo)
+{
+  omr::RingCandidate candidate;
+  candidate.rings.radii = {10, 20, 38};
+  candidate.boundaries.resize(3);
+  candidate.profile = std::make_shared<omr::RingProfile>(greyRings({10, 20, 38}, {200, 60, 200, 60}));
+  EXPECT_FALSE(omr::hidesRings(candidate, "WPW"));
+  EXPECT_FALSE(omr::hidesRings(candidate, "?PW"));
+  EXPECT_TRUE(omr::hidesRings(candidate, "WP?"));
 }
 
 TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
@@ -208,9 +221,10 @@ TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
       profile.grey.col(sample) += cv::Scalar::all(sample % 4 < 2 ? ripple : -ripple);
     }
     candidate.rings.radii = radii;
+    candidate.boundaries.resize(radii.size());
     candidate.is_certain = is_certain;
     candidate.profile = std::make_shared<omr::RingProfile>(profile);
-    return omr::hidesRings(candidate);
+    return omr::hidesRings(candidate, std::string(candidate.rings.radii.size(), 'W'));
   };
   const std::vector<double> even = {4, 8, 12, 16};
   const std::vector<double> uneven = {4, 8, 14, 18};
@@ -219,6 +233,8 @@ TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
   EXPECT_FALSE(hides(10, even, true));
   EXPECT_TRUE(hides(10, uneven, true)) << "a ring that is wider may be two";
   EXPECT_TRUE(hides(20, even, true));
+  EXPECT_TRUE(hides(5, {3, 6, 12, 15}, false)) << "one may be two";
+  EXPECT_FALSE(hides(5, {3, 6, 9, 12}, false));
   candidate.visible = .8;
   EXPECT_TRUE(hides(10, even, true)) << "something may hide them";
 }

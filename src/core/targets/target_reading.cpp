@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "targets/boundaries/ring_placement.h"
+#include "targets/letters/hidden_rings.h"
 #include "targets/letters/ring_letters.h"
 
 namespace omr
@@ -132,7 +133,7 @@ bool toTarget(const cv::Mat& bgr, RingCandidate candidate, int min_rings, Target
 {
   target.colors = readLetters(candidate);
   const bool is_read = target.colors.find('?') == std::string::npos;
-  if ((candidate.is_merged && !(candidate.is_explained && is_read)) || hidesRings(candidate))
+  if ((candidate.is_merged && !(candidate.is_explained && is_read)) || hidesRings(candidate, target.colors))
   {
     return false;
   }

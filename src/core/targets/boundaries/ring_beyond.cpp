@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "targets/candidate/ring_openness.h"
+
 namespace omr
 {
 namespace
@@ -55,43 +57,18 @@ struct Arc
   int count = 0;      // of all
 };
 
-/** Longest run of directions; single ones may be missing. */
-int longestRun(const std::array<bool, ANGLES>& is_in)
-{
-  int longest = 0;
-  int run = 0;
-  int gap = 0;
-  for (int i = 0; i < 2 * ANGLES; ++i)
-  {
-    if (is_in[i % ANGLES])
-    {
-      run += 1 + gap;
-      gap = 0;
-      longest = std::max(longest, run);
-    }
-    else if (run > 0 && gap == 0)
-    {
-      gap = 1;
-    }
-    else
-    {
-      run = gap = 0;
-    }
-  }
-  return std::min(longest, ANGLES);
-}
-
 Arc arcAround(const Step& middle, const std::array<Step, ANGLES>& steps)
 {
   const double tolerance = std::max(TOLERANCE, RELATIVE_TOLERANCE * middle.radius);
-  std::array<bool, ANGLES> is_in{};
+  AngleBins alike = 0;
   for (int angle = 0; angle < ANGLES; ++angle)
   {
     const Step& step = steps[angle];
-    is_in[angle] = std::abs(step.radius - middle.radius) <= tolerance &&
-                   step.change.dot(middle.change) > ALIKE * cv::norm(step.change) * cv::norm(middle.change);
+    const bool is_alike = std::abs(step.radius - middle.radius) <= tolerance &&
+                          step.change.dot(middle.change) > ALIKE * cv::norm(step.change) * cv::norm(middle.change);
+    alike |= is_alike ? AngleBins{1} << angle : 0;
   }
-  return {middle.radius, longestRun(is_in), static_cast<int>(std::count(is_in.begin(), is_in.end(), true))};
+  return {middle.radius, longestRun(alike), __builtin_popcountll(alike)};
 }
 }  // namespace
 

@@ -248,6 +248,22 @@ double narrowestRing(const std::vector<double>& radii)
   return narrowest;
 }
 
+double widestRing(const std::vector<double>& radii)
+{
+  double widest = radii[0];
+  for (std::size_t k = 1; k < radii.size(); ++k)
+  {
+    widest = std::max(widest, radii[k] - radii[k - 1]);
+  }
+  return widest;
+}
+
+std::vector<double> scaledBy(double factor, std::vector<double> values)
+{
+  std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
+  return values;
+}
+
 double greyLevel(float log_color)
 {
   return std::exp(log_color) - DARK_LEVEL;

@@ -73,6 +73,12 @@ bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std
 /** Width of the narrowest ring [px]. @param radii of the boundaries [px], not empty */
 double narrowestRing(const std::vector<double>& radii);
 
+/** Likewise of the widest. */
+double widestRing(const std::vector<double>& radii);
+
+/** The values times a factor. */
+std::vector<double> scaledBy(double factor, std::vector<double> values);
+
 /** The grey level [0, 255] that a channel of a LogColor stands for. */
 double greyLevel(float log_color);
 

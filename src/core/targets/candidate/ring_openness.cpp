@@ -54,6 +54,31 @@ double widestGap(AngleBins open)
   return open == 0 ? 1 : widest / static_cast<double>(ANGLE_BINS);
 }
 
+int longestRun(AngleBins bins)
+{
+  int longest = 0;
+  int run = 0;
+  int gap = 0;
+  for (int i = 0; i < 2 * ANGLE_BINS; ++i)
+  {
+    if ((bins >> (i % ANGLE_BINS) & 1) != 0)
+    {
+      run += 1 + gap;
+      gap = 0;
+      longest = std::max(longest, run);
+    }
+    else if (run > 0 && gap == 0)
+    {
+      gap = 1;
+    }
+    else
+    {
+      run = gap = 0;
+    }
+  }
+  return std::min(longest, ANGLE_BINS);
+}
+
 double onesidedness(AngleBins open)
 {
   cv::Point2d sum;

@@ -19,6 +19,9 @@ double onesidedness(AngleBins open);
 /** Widest run of other directions [share of a turn]. */
 double widestGap(AngleBins open);
 
+/** Longest run of directions, of which single ones may be missing [directions]. */
+int longestRun(AngleBins bins);
+
 }  // namespace omr
 
 #endif

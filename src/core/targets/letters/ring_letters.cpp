@@ -21,20 +21,6 @@ constexpr double EVIDENT_CONTRAST = .2;
 constexpr double EVIDENT_COHERENCE = .9;
 constexpr double EVIDENT_SHARE = .5;
 
-// What uniform rings leave unexplained of a target with narrow ones, relative to its contrast: more shows that the blur
-// hides rings. Of 25 targets of the field with a ring too many or too few 9 have more, of 132 others 1. Sharp rings of
-// 2 to 3 px, which few samples show, have up to .06 where inks do not explain them.
-constexpr double NARROW = 5;  // [px]
-constexpr double MOST_UNEXPLAINED = .057;
-constexpr double MOST_UNEXPLAINED_SHARP = .06;
-constexpr double MOST_UNEXPLAINED_WIDTH = .15;  // times the width of the narrowest [px]
-// The same of even rings whose letters are certain: a ring that the blur made of two is as wide as two, or its colour
-// comes near to several letters. In 1040 drawn and 65 path-traced scenes and the evaluation 29 targets more, all of
-// them with the right number of rings; rings that lack one and are certain have 1.43 times the narrowest and more.
-constexpr double MOST_UNEXPLAINED_CERTAIN = .09;
-constexpr double CERTAIN_WIDTH = 2.5;     // [px]
-constexpr double CERTAIN_EVENNESS = 1.4;  // most, of the widest to the narrowest ring
-constexpr double CERTAIN_VISIBLE = .9;
 // Distance of the edgels to their boundaries, most, of rings whose letters may explain them worse.
 constexpr double CLOSE_RMS = .13;            // [px]
 constexpr double CLOSE_RELATIVE_RMS = .001;  // more, relative to the outer radius
@@ -46,6 +32,7 @@ constexpr double HALO_WIDTH = .6;  // most of what has a letter, times that of e
 constexpr double HALO_HUE = .15;   // most, from the line between the neighbours' colours, relative to their step
 
 // Where the inks tell which rings there are.
+constexpr double NARROW = 5;          // of the narrowest ring, most [px]
 constexpr double NARROW_MEAN = 7;     // width of all rings, most: a narrow one among wide ones is no ring [px]
 constexpr double ROUND = .7;          // share of the directions, least: outlines of square sheets have .52 to .62
 constexpr double SAME_BOUNDARY = .5;  // most, of the width of the narrowest ring
@@ -53,16 +40,6 @@ constexpr double SAME_BOUNDARY = .5;  // most, of the width of the narrowest rin
 // letter of such a one, its ink must leave less: of brown things on disks inks leave 4.4 to 23.
 constexpr double COVERED_WIDTH = 5;  // [px]
 constexpr double MOST_COVERED_REST = 4;
-
-double widestRing(const std::vector<double>& radii)
-{
-  double widest = radii[0];
-  for (std::size_t k = 1; k < radii.size(); ++k)
-  {
-    widest = std::max(widest, radii[k] - radii[k - 1]);
-  }
-  return widest;
-}
 
 /** Whether there is a boundary, whatever the colours. */
 bool isEvident(const Boundary& boundary)
@@ -164,12 +141,6 @@ KeyReading readColors(const RingProfile& profile, bool is_close, std::vector<Bou
   }
 }
 
-std::vector<double> scaledBy(double factor, std::vector<double> values)
-{
-  std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
-  return values;
-}
-
 /** Whether the blur merges the rings, as they are narrow as a whole. */
 bool areNarrow(const std::vector<double>& radii)
 {
@@ -190,11 +161,6 @@ bool isRound(const std::vector<Boundary>& boundaries)
   const std::size_t last = boundaries.size() - 1;
   const AngleBins inside = shownAt(boundaries[last - 1]) | shownAt(boundaries[last - 2]);
   return share(inside & shownAt(boundaries[last])) > ROUND * share(inside);
-}
-
-bool showsAll(const std::vector<Boundary>& boundaries)
-{
-  return std::all_of(boundaries.begin(), boundaries.end(), [](const Boundary& boundary) { return boundary.shown; });
 }
 
 /** Letters that inks explain, but that something may hide, become '?'. @param key what colours alone tell. */
@@ -274,19 +240,6 @@ std::string readLetters(RingCandidate& candidate)
   candidate.boundaries = std::move(boundaries);
   candidate.rings.radii = std::move(left);
   return letters;
-}
-
-bool hidesRings(const RingCandidate& candidate)
-{
-  const double width = narrowestRing(candidate.rings.radii);
-  const std::vector<double> radii = scaledBy(candidate.profile_scale, candidate.rings.radii);
-  const bool is_certain = candidate.is_certain && !candidate.is_spot && showsAll(candidate.boundaries) &&
-                          candidate.visible > CERTAIN_VISIBLE && width > CERTAIN_WIDTH &&
-                          widestRing(candidate.rings.radii) < CERTAIN_EVENNESS * width;
-  const double most = is_certain ? MOST_UNEXPLAINED_CERTAIN
-                                 : std::clamp(MOST_UNEXPLAINED_WIDTH / width, MOST_UNEXPLAINED, MOST_UNEXPLAINED_SHARP);
-  return (width < NARROW && !candidate.is_explained && unexplained(*candidate.profile, radii) > most) ||
-         showsArcBeyond(*candidate.profile, radii, candidate.profile_scale);
 }
 
 bool fitsClosely(const Rings& rings)

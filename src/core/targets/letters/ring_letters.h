@@ -10,12 +10,6 @@ namespace omr
 /** The letters of the rings; a boundary between equal ones is no ring's: the candidate loses it. */
 std::string readLetters(RingCandidate& candidate);
 
-/**
- * Whether so much of the profile stays unexplained by uniform rings that the blur must hide some, or a further one
- * shows beyond them.
- */
-bool hidesRings(const RingCandidate& candidate);
-
 /** Whether the edgels lie so close to the circles that letters may be clear, though they explain the rings worse. */
 bool fitsClosely(const Rings& rings);
 
