@@ -1,4 +1,4 @@
-#include "targets/candidate/ring_on_ground.h"
+#include "targets/boundaries/ring_on_ground.h"
 
 #include <gtest/gtest.h>
 

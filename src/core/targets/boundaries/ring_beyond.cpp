@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "targets/candidate/ring_openness.h"
+#include "targets/family/angle_bins.h"
 
 namespace omr
 {
@@ -68,7 +68,7 @@ Arc arcAround(const Step& middle, const std::array<Step, ANGLES>& steps)
                           step.change.dot(middle.change) > ALIKE * cv::norm(step.change) * cv::norm(middle.change);
     alike |= is_alike ? AngleBins{1} << angle : 0;
   }
-  return {middle.radius, longestRun(alike), __builtin_popcountll(alike)};
+  return {middle.radius, longestRun(alike), countOf(alike)};
 }
 }  // namespace
 

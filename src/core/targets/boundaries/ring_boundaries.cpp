@@ -40,11 +40,6 @@ constexpr double LARGEST_BLED_CONTRAST = .45;
 constexpr double MIN_FLANK_SUPPORT = .6;
 constexpr double MIN_FLANK_AGREEMENT = .92;  // times coherence: or else
 
-int bits(AngleBins mask)
-{
-  return __builtin_popcountll(mask);
-}
-
 using Values = std::array<float, ANGLES>;
 
 /** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
@@ -172,18 +167,18 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   boundary.radius = radii[k];
   boundary.supported = support.at(radii[k], tolerance);
   boundary.seen = steps.seen;
-  if (bits(boundary.seen) < leastDirections(profile))
+  if (countOf(boundary.seen) < leastDirections(profile))
   {
     return boundary;
   }
   // What hides a boundary has an edge elsewhere.
   const AngleBins edged = boundary.seen & boundary.supported;
-  setChange(steps.whole, bits(edged) >= MIN_EDGED ? edged : boundary.seen, boundary);
+  setChange(steps.whole, countOf(edged) >= MIN_EDGED ? edged : boundary.seen, boundary);
   boundary.agreeing = agreeingDirections(steps, boundary);
   // Where one channel rises as another falls, noise and light decide which is the stronger. So the sign of an edgel
   // tells nothing where the colours agree: of the field's targets 157 and 157 are found instead of 155 and 155.
   boundary.supported |= boundary.agreeing & support.either(radii[k], tolerance);
-  boundary.agreement = bits(boundary.agreeing) / static_cast<double>(bits(boundary.seen));
+  boundary.agreement = countOf(boundary.agreeing) / static_cast<double>(countOf(boundary.seen));
   return boundary;
 }
 
@@ -211,7 +206,7 @@ double quality(const std::vector<Boundary>& boundaries, std::size_t k, const Ang
       std::min(boundary.contrast / least_contrast, boundary.agreement / (MIN_AGREEMENT + FAINT_AGREEMENT * faintness));
   if (isBesideStronger(boundaries, k))
   {
-    const double seen_edges = bits(boundary.supported & boundary.seen) / std::max(1., 1. * bits(boundary.seen));
+    const double seen_edges = countOf(boundary.supported & boundary.seen) / std::max(1., 1. * countOf(boundary.seen));
     result = std::min(result, std::max(seen_edges / MIN_FLANK_SUPPORT,
                                        boundary.agreement * boundary.coherence / MIN_FLANK_AGREEMENT));
   }

@@ -207,7 +207,7 @@ void sampleProfile(const cv::Mat& bgr, const RingFamily& family, double max_radi
 
 int leastDirections(const RingProfile& profile)
 {
-  return __builtin_popcountll(profile.open) / 2;
+  return countOf(profile.open) / 2;
 }
 
 bool ringColor(const RingProfile& profile, const std::vector<double>& radii, std::size_t ring, int angle,

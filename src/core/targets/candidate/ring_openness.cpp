@@ -1,7 +1,6 @@
 #include "ring_openness.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace omr
 {
@@ -13,10 +12,6 @@ constexpr double RELATIVE_TOLERANCE = .03;  // relative to its radius
 constexpr double CLEARANCE = .4;            // at most, of the distance to the next one
 constexpr double OPEN_SHARE = .6;           // of the boundaries, that have an edge
 
-AngleBins turned(AngleBins bins, int by)
-{
-  return by == 0 ? bins : bins << by | bins >> (ANGLE_BINS - by);
-}
 }  // namespace
 
 AngleBins openDirections(EdgelMap& map, const Rings& rings)
@@ -42,52 +37,6 @@ AngleBins openDirections(EdgelMap& map, const Rings& rings)
     open |= static_cast<double>(count) >= OPEN_SHARE * static_cast<double>(edged.size()) ? AngleBins{1} << angle : 0;
   }
   return open & (turned(open, 1) | turned(open, ANGLE_BINS - 1));  // single ones are chance
-}
-
-double widestGap(AngleBins open)
-{
-  int widest = 0;
-  for (; open != 0 && ~open != 0; ++widest)
-  {
-    open |= turned(open, 1);
-  }
-  return open == 0 ? 1 : widest / static_cast<double>(ANGLE_BINS);
-}
-
-int longestRun(AngleBins bins)
-{
-  int longest = 0;
-  int run = 0;
-  int gap = 0;
-  for (int i = 0; i < 2 * ANGLE_BINS; ++i)
-  {
-    if ((bins >> (i % ANGLE_BINS) & 1) != 0)
-    {
-      run += 1 + gap;
-      gap = 0;
-      longest = std::max(longest, run);
-    }
-    else if (run > 0 && gap == 0)
-    {
-      gap = 1;
-    }
-    else
-    {
-      run = gap = 0;
-    }
-  }
-  return std::min(longest, ANGLE_BINS);
-}
-
-double onesidedness(AngleBins open)
-{
-  cv::Point2d sum;
-  for (int angle = 0; angle < ANGLE_BINS; ++angle)
-  {
-    const double phi = 2 * CV_PI * angle / ANGLE_BINS;
-    sum += (open >> angle & 1) != 0 ? cv::Point2d(std::cos(phi), std::sin(phi)) : cv::Point2d();
-  }
-  return cv::norm(sum) / std::max(1, __builtin_popcountll(open));
 }
 
 }  // namespace omr

@@ -13,15 +13,6 @@ namespace omr
  */
 AngleBins openDirections(EdgelMap& map, const Rings& rings);
 
-/** How far the directions lie to one side: 0 where they are evenly spread, .64 in half of the turn [0, 1]. */
-double onesidedness(AngleBins open);
-
-/** Widest run of other directions [share of a turn]. */
-double widestGap(AngleBins open);
-
-/** Longest run of directions, of which single ones may be missing [directions]. */
-int longestRun(AngleBins bins);
-
 }  // namespace omr
 
 #endif

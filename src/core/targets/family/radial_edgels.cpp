@@ -157,16 +157,7 @@ bool liesBeyond(const RingFamily& family, double radius, const cv::Rect2d& area)
   return squared > radius * radius && horizon < 1 && gradient.x * to_middle.x >= 0 && gradient.y * to_middle.y >= 0;
 }
 
-int count(AngleBins bins)
-{
-  return __builtin_popcountll(bins);
-}
 }  // namespace
-
-double share(AngleBins bins)
-{
-  return count(bins) / static_cast<double>(ANGLE_BINS);
-}
 
 void collectRadialEdgels(EdgelMap& map, const RingFamily& family, double max_radius, double min_cosine,
                          std::vector<RadialEdgel>& edgels)
@@ -249,7 +240,7 @@ std::pair<AngleBins, AngleBins> AngularSupport::apart(double radius, double tole
 AngleBins AngularSupport::at(double radius, double tolerance) const
 {
   const auto [brighter, darker] = apart(radius, tolerance);
-  return count(brighter) > count(darker) ? brighter : darker;
+  return countOf(brighter) > countOf(darker) ? brighter : darker;
 }
 
 AngleBins AngularSupport::either(double radius, double tolerance) const

@@ -1,25 +1,16 @@
 #ifndef OUTDOOR_OMR_CORE_RADIAL_EDGELS_H
 #define OUTDOOR_OMR_CORE_RADIAL_EDGELS_H
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
+#include "angle_bins.h"
 #include "ring_family.h"
 #include "targets/edges/edgels.h"
 
 namespace omr
 {
-/** Directions into which angular support is divided: bin i is centred on 2 pi (i + 1/2) / 64 on the plane. */
-constexpr int ANGLE_BINS = 64;
-
-/** One bit per direction. */
-using AngleBins = std::uint64_t;
-
-/** Share of the directions [0, 1]. */
-double share(AngleBins bins);
-
 /** An edgel whose gradient points along the family's radius. */
 struct RadialEdgel
 {

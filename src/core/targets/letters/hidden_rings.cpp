@@ -4,7 +4,7 @@
 
 #include "targets/boundaries/ring_beyond.h"
 #include "targets/boundaries/ring_deblur.h"
-#include "targets/candidate/ring_on_ground.h"
+#include "targets/boundaries/ring_on_ground.h"
 
 namespace omr
 {

@@ -53,7 +53,7 @@ class Values
 /** The directions that tell a boundary's step; all where too few agree. */
 AngleBins shownDirections(const Boundary& boundary)
 {
-  return __builtin_popcountll(boundary.agreeing) >= MIN_DIRECTIONS ? boundary.agreeing : ~AngleBins{0};
+  return countOf(boundary.agreeing) >= MIN_DIRECTIONS ? boundary.agreeing : ~AngleBins{0};
 }
 
 /** Logarithm of the linear light: red, green, blue. @param grey B, G, R [0, 255] */

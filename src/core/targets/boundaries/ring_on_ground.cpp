@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "median.h"
-#include "ring_openness.h"
-#include "targets/boundaries/ring_samples.h"
+#include "ring_samples.h"
 
 namespace omr
 {
@@ -116,7 +115,7 @@ Circle circleAt(const RingProfile& profile, const RayMeans& means, double outerm
                      means.at(angle, radius - 1.5 * edge, radius - .25 * edge);
     }
   }
-  if (__builtin_popcountll(seen) < LEAST_SEEN)
+  if (countOf(seen) < LEAST_SEEN)
   {
     return {};
   }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "targets/boundaries/ring_profile.h"
+#include "ring_profile.h"
 
 namespace omr
 {
