@@ -90,6 +90,29 @@ TEST(EdgeLine, aRimIsNoneWhereTheNextSquaresBegin)
   }
 }
 
+TEST(EdgeLine, aRimIsNoneWhereGlareHidesTheHalfOfItsCorners)
+{
+  constexpr auto RIM = omr::SideEvidence::rim;
+  const auto last_side = [](double light, int hidden) {
+    Render render({400, 340});
+    render.addBoard(ROWS, COLS, place());
+    const auto corner = [](double x, double y) { return cv::Point2d(at(x, y)); };
+    render.addPolygon({corner(-2, 4.5), corner(COLS + 2, 4.5), corner(COLS + 2, 9), corner(-2, 9)},
+                      cv::Scalar::all(light));
+    Lattice lattice = firstRows(ROWS - 3);
+    for (int j = 0; j < hidden; ++j)
+    {
+      lattice.remove(lattice.box.br().y - 1, lattice.box.x + j);
+    }
+    Sides sides = {RIM, RIM, RIM, RIM};
+    omr::settleRims(omr::makeFrame(render.picture(0.8)), lattice, sides);
+    return sides[omr::bottom];
+  };
+  EXPECT_EQ(omr::SideEvidence::none, last_side(255, 4));
+  EXPECT_EQ(RIM, last_side(255, 2)) << "most corners show";
+  EXPECT_EQ(RIM, last_side(215, 4)) << "as bright as paper";
+}
+
 TEST(EdgeLine, aHiddenSideIsARimWhereItsSquaresAreCut)
 {
   constexpr double CUT = ROWS - 0.5;

@@ -53,6 +53,60 @@ float medianRatio(const Frame& frame, const LatticeModel& model, const Lattice& 
   }
   return ratios.empty() ? 0 : median(std::move(ratios));
 }
+
+/** Grey level of a square's middle, the first of its corners given; 0 outside the picture. */
+float levelOfSquare(const Frame& frame, const LatticeModel& model, double row, double col)
+{
+  const LocalFrame middle = model.frameAt(row + 0.5, col + 0.5);
+  return isInside(frame.raw_grey, middle.node, 2) ? PyramidView(frame, squareHeight(middle)).sample(middle.node) : 0;
+}
+
+/** Median grey level of the light squares between corners. */
+float paperLevel(const Frame& frame, const LatticeModel& model, const Lattice& lattice)
+{
+  const cv::Rect box = lattice.box;
+  std::vector<float> levels;
+  for (int i = box.y; i + 1 < box.br().y; ++i)
+  {
+    for (int j = box.x; j + 1 < box.br().x; ++j)
+    {
+      if (lattice.sign(i, j) > 0)
+      {
+        levels.push_back(levelOfSquare(frame, model, i, j));
+      }
+    }
+  }
+  return levels.empty() ? 0 : median(std::move(levels));
+}
+
+/**
+ * Whether glare may hide squares beyond a side: half of the last corners are gone, and it is brighter there than the
+ * board's paper. Of 2058 boards drawn below things, shadows and gloss 30 wrong -> 24, all six below gloss; 3 of 1655
+ * found are lost.
+ */
+bool mayGoOnInGlare(const Frame& frame, const LatticeModel& model, const Lattice& lattice, Side side)
+{
+  constexpr float MIN_LEVEL = 245;  // grey levels
+  constexpr float MIN_STEP = 20;    // grey levels over the paper
+  constexpr float MIN_SHARE = 0.2F;
+  const int last = lineIndex(lattice, side, 0);
+  if (2 * countOnLine(lattice, side, last) > lineLength(lattice, side))
+  {
+    return false;
+  }
+  const float least = std::max(MIN_LEVEL, paperLevel(frame, model, lattice) + MIN_STEP);
+  const int rim = inwards(side) > 0 ? last - 1 : last;
+  const int start = lineStart(lattice, side);
+  Share glare;
+  for (int t = start - 1; t < start + lineLength(lattice, side); ++t)
+  {
+    const Node inner = nodeOnLine(side, rim, t);
+    const Node outer = nodeOnLine(side, rim - inwards(side), t);
+    glare.add(levelOfSquare(frame, model, inner.row, inner.col) >= least ||
+              levelOfSquare(frame, model, outer.row, outer.col) >= least);
+  }
+  return glare.value() > MIN_SHARE;
+}
 }  // namespace
 
 bool EdgeLine::ends() const
@@ -157,7 +211,8 @@ void settleRims(const Frame& frame, const Lattice& lattice, std::array<SideEvide
     {
       const EdgeLine border = lookAtEdgeLine(frame, model, lattice, side, 1, ratio);
       const bool is_known = is_rim && (is_sure || border.places == 0);
-      const bool is_last = is_known ? !border.goesOn() : border.isLast();
+      const bool is_last =
+          (is_known ? !border.goesOn() : border.isLast()) && !mayGoOnInGlare(frame, model, lattice, side);
       sides[side] = is_last ? SideEvidence::rim : SideEvidence::none;
     }
   }

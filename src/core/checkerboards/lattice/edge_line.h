@@ -51,7 +51,7 @@ EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lat
  * is a rim where squares lie inside it and none beyond: of 1354 boards on photographs that were covered, lit and cut 19
  * more are found so, most with narrow rim squares. A rim is none where squares go on (below drawn fences 14 of 15 such
  * sides are refused, of 690 where the board ends none) or, of an uneven lattice without a border, where none lie
- * inside.
+ * inside; nor where glare hides the half of its corners and may hide more.
  */
 void settleRims(const Frame& frame, const Lattice& lattice, std::array<SideEvidence, 4>& sides);
 
