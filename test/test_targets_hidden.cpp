@@ -75,13 +75,13 @@ TEST(HiddenTargets, noInkExplainsAThingOnTheDiskOfNarrowRings)
       {
         scene.colors = colors;
         scene.blur = blur;
-        scene.cover = 8.2 * scale;
-        scene.cover_offset = scale * cv::Point2d(.7, .4);
+        scene.cover = 6.4 * scale;
+        scene.cover_offset = scale * cv::Point2d(.5, .3);
         scene.sheet_half_side = 40 * scale;
         scene.radii.clear();
         for (int k = 0; k < 5; ++k)
         {
-          scene.radii.push_back(scale * (8.5 + 4.3 * k));
+          scene.radii.push_back(scale * (6.7 + 4.3 * k));
         }
         std::vector<uchar> code;
         cv::imencode(".jpg", renderTarget(scene), code, {cv::IMWRITE_JPEG_QUALITY, 92});
