@@ -48,6 +48,25 @@ TEST(Targets, largeAndOutOfFocus)
   expectFound(scene, "RWPGB", .5);
 }
 
+TEST(Targets, largeAndOutOfFocusInALargeImage)
+{
+  // More than five megapixels: the reduced image has the families of the image's arcs.
+  constexpr int SCALE = 3;
+  TargetScene scene;
+  scene.size = {960, 720};
+  scene.homography = cv::Matx33d(1, 0, 400, 0, .9, 330, 0, 0, 1);
+  scene.radii = {40, 80, 120, 160, 200};
+  scene.sheet_half_side = 260;
+  scene.blur = 6;
+  cv::Mat image;
+  cv::resize(renderTarget(scene), image, cv::Size(), SCALE, SCALE, cv::INTER_LINEAR);
+  const std::vector<Target> targets = findTargetsIn(image);
+  ASSERT_EQ(targets.size(), 1U);
+  expectLetters("RWPGB", 0, targets[0].colors);
+  EXPECT_NEAR(targets[0].center.x, SCALE * 400.5 - .5, 1);
+  EXPECT_NEAR(targets[0].center.y, SCALE * 330.5 - .5, 1);
+}
+
 TEST(Targets, aLargeSoftThingWithoutLettersIsNone)
 {
   TargetScene scene;

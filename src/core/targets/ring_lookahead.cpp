@@ -31,7 +31,12 @@ void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundS
   {
     return;
   }
-  const std::vector<ArcFamily> families = searchArcFamilies(bgr);
+  if (!seeds.has_arcs)
+  {
+    seeds.arcs = searchArcFamilies(bgr);
+    seeds.has_arcs = true;
+  }
+  const std::vector<ArcFamily>& families = seeds.arcs;
   EdgelMap start = map;
   start.setMaxLooks(sharedLooks(bgr.size(), FAMILIES_SHARE));
   for (std::size_t i = 0; i < families.size(); ++i)

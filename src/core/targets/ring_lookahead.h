@@ -9,6 +9,7 @@
 #include "targets/candidate/ring_acceptance.h"
 #include "targets/candidate/ring_candidate.h"
 #include "targets/edges/edgels.h"
+#include "targets/seeds/arc_families.h"
 #include "targets/seeds/ring_seeds.h"
 #include "targets/seeds/round_spots.h"
 
@@ -43,8 +44,10 @@ struct RoundSeeds
 {
   std::vector<RingSeed> seeds;
   std::vector<std::optional<GrownSeed>> grown;  // one a seed
-  std::vector<GrownSeed> families;              // the one with most arcs first
+  std::vector<ArcFamily> arcs;                  // their families, the one with most arcs first
+  std::vector<GrownSeed> families;              // one for each of them
   std::vector<RoundSpot> spots;                 // the roundest first
+  bool has_arcs = false;
   bool has_families = false;
   bool has_spots = false;
   bool has_seeds = false;
@@ -53,7 +56,7 @@ struct RoundSeeds
 /** Finds the round seeds, if that was not done before. */
 void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 
-/** Finds and grows the families of arcs, from which most targets come, if that was not done before. */
+/** Finds and grows the families of arcs, from which most targets come, what of it was not done before. */
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
 
 /**

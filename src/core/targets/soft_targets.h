@@ -7,6 +7,7 @@
 
 #include "outdoor_omr/checkerboard.h"
 #include "outdoor_omr/target.h"
+#include "targets/seeds/arc_families.h"
 
 namespace omr
 {
@@ -14,12 +15,14 @@ namespace omr
  * Large targets that are so blurred or faint that only a reduced image shows their edges.
  *
  * @param bgr       H x W, CV_8UC3.
+ * @param arcs      the families of its arcs, as of searchArcFamilies().
  * @param boards    what lies on them, where they show, is no target.
  * @param min_rings of a target.
  * @param is_vain   if given and set, there is nothing to be found.
  * @return          those of which every letter is read.
  */
-std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<Checkerboard>& boards, int min_rings,
+std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<ArcFamily>& arcs,
+                                    const std::vector<Checkerboard>& boards, int min_rings,
                                     const std::atomic<bool>* is_vain);
 
 }  // namespace omr

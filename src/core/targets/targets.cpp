@@ -43,11 +43,13 @@ struct TargetSearch::State
   std::vector<Target> search(EdgelMap& of_image, const RegionMap& regions, RoundSeeds with,
                              const std::vector<Checkerboard>& boards, const std::atomic<bool>* is_vain) const
   {
+    growFamilies(of_image, bgr, min_rings, with);
+    const std::vector<ArcFamily> arcs = with.arcs;
     std::vector<Target> found = readTargets(
         bgr, findRingCandidates(of_image, bgr, regions, std::move(with), boards, min_rings, is_vain), min_rings);
     if (found.empty())  // beside others it would take a tenth of the time
     {
-      found = findSoftTargets(bgr, boards, min_rings, is_vain);
+      found = findSoftTargets(bgr, arcs, boards, min_rings, is_vain);
     }
     return found;
   }

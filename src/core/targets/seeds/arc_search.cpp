@@ -57,9 +57,14 @@ void findArcs(const cv::Mat& bgr, int reduction, const cv::Size& size, ArcTrace&
 }
 }  // namespace
 
+int arcReduction(const cv::Size& image_size)
+{
+  return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(image_size.area()) / MAX_PIXELS)));
+}
+
 std::vector<ArcFamily> searchArcFamilies(const cv::Mat& bgr)
 {
-  const int reduction = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(bgr.total()) / MAX_PIXELS)));
+  const int reduction = arcReduction(bgr.size());
   const cv::Size size(std::max(1, bgr.cols / reduction), std::max(1, bgr.rows / reduction));
   thread_local ArcTrace trace;  // of the thread that searches one image after the other
   findArcs(bgr, reduction, size, trace);

@@ -8,6 +8,9 @@
 
 namespace omr
 {
+/** By how much images of a size are reduced before their arcs are traced, each side. */
+int arcReduction(const cv::Size& image_size);
+
 /**
  * Families of concentric circles in an image by the arcs of their edges, at a resolution at which half a million pixels
  * are left: arcs of circles of some 15 px and more show there, noise does not.
