@@ -93,6 +93,17 @@ TEST(HiddenTargets, noInkExplainsAThingOnTheDiskOfNarrowRings)
   }
 }
 
+TEST(HiddenTargets, aRingFarNarrowerThanTheOthersIsDoubted)
+{
+  TargetScene scene;
+  scene.colors = "RGWPB";
+  scene.radii = {20, 40, 60, 66, 86};
+  scene.sheet_half_side = 120;
+  EXPECT_TRUE(findTargetsIn(renderTarget(scene)).empty());
+  scene.radii = {20, 40, 60, 69, 89};
+  EXPECT_EQ(1U, findTargetsIn(renderTarget(scene)).size());
+}
+
 TEST(HiddenTargets, theSidesOfASquareAreNoRing)
 {
   // The sheet's sides touch a circle that resembles another ring.
