@@ -208,6 +208,7 @@ TEST(RingDeblur, whatHasNoLetterAndIsAsWideAsTwoIsTwo)
   EXPECT_FALSE(omr::hidesRings(candidate, "WPW"));
   EXPECT_FALSE(omr::hidesRings(candidate, "?PW"));
   EXPECT_TRUE(omr::hidesRings(candidate, "WP?"));
+  EXPECT_FALSE(omr::hidesRings(candidate, "???")) << "their centre is all that is told";
 }
 
 TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)

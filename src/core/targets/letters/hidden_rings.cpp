@@ -38,6 +38,7 @@ bool showsAll(const std::vector<Boundary>& boundaries)
 {
   return std::all_of(boundaries.begin(), boundaries.end(), [](const Boundary& boundary) { return boundary.shown; });
 }
+
 /** How much may stay unexplained of rings that are narrow, relative to the contrast. */
 double mostUnexplained(const RingCandidate& candidate)
 {
@@ -60,9 +61,16 @@ bool mergesRings(const RingCandidate& candidate, const std::vector<double>& radi
          unexplained(*candidate.profile, radii) > mostUnexplained(candidate);
 }
 
-/** Whether what has no letter is as wide as two of the other rings. */
+/**
+ * Whether what has no letter is as wide as two of the other rings. Where none has a letter only the centre is told: two
+ * targets in the haze of the evaluation stay found, and 51 instead of 49 things in 2138 pictures without a target.
+ */
 bool hasUnreadPair(const std::vector<double>& radii, const std::string& letters)
 {
+  if (letters.find_first_not_of('?') == std::string::npos)
+  {
+    return false;
+  }
   double inner = 0;
   for (std::size_t k = 0; k < radii.size() && radii.size() > 2; ++k)
   {
