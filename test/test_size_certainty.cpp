@@ -102,6 +102,20 @@ TEST_F(SizeCertainty, aGreyThingIsNoMargin)
   EXPECT_FALSE(isCertain(COLS - 2));
 }
 
+TEST_F(SizeCertainty, aSheetLaidAslantThatPassesForTheMarginIsNoEnd)
+{
+  sides_.fill(omr::SideEvidence::border);
+  const auto is_certain_below_sheet = [this](double top, double bottom) {
+    render_ = Render({480, 380}, GREY);
+    render_.addBoard(ROWS, COLS, place_, true, 0.15);
+    render_.addPolygon({at(top, -0.1), at(COLS + 2, -0.1), at(COLS + 2, ROWS + 0.1), at(bottom, ROWS + 0.1)}, WHITE);
+    return isCertain(COLS - 2);
+  };
+  EXPECT_TRUE(is_certain_below_sheet(COLS - 2, COLS - 2)) << "nobody can tell";
+  EXPECT_FALSE(is_certain_below_sheet(COLS - 2, COLS - 1.6)) << "slivers of the next squares";
+  EXPECT_FALSE(is_certain_below_sheet(COLS - 2.7, COLS - 2)) << "squares cut aslant";
+}
+
 TEST_F(SizeCertainty, anEdgeThatDoesNotRunAlongTheBoardIsNoMargin)
 {
   render_.addPolygon({at(COLS - 2.25, -2), at(COLS + 2, -2), at(COLS + 2, ROWS + 2), at(COLS - 1.75, ROWS + 2)}, WHITE);

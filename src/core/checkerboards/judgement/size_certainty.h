@@ -13,7 +13,8 @@ namespace omr
 /**
  * Whether all four ends of a board are seen, so that nothing hidden may belong to it: borders, or a narrow margin,
  * where dark squares of the rim end along one line and light ones do not, as far out as on the opposite side. Bare ends
- * are none: the window of a mat ends squares so too (of 45 drawn ones 26 were certain -> 2).
+ * are none: the window of a mat ends squares so too (of 45 drawn ones 26 were certain -> 2). Borders are none where
+ * the squares are cut aslant or slivers of further ones show.
  *
  * @param lattice its refined corners.
  * @param seen    what refineCorners() gave. Where none is seen on an outermost line, no end is; where none is on two

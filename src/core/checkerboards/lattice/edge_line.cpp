@@ -34,26 +34,6 @@ struct Share
   int like = 0;
 };
 
-/** Median ratio of light to dark at the corners, logarithm; 0 if none shows it. */
-float medianRatio(const Frame& frame, const LatticeModel& model, const Lattice& lattice)
-{
-  std::vector<float> ratios;
-  const cv::Rect box = lattice.box;
-  for (int i = box.y; i < box.br().y; ++i)
-  {
-    for (int j = box.x; j < box.br().x; ++j)
-    {
-      const LocalFrame corner = model.frameAt(i, j);
-      if (lattice.found(i, j) && showsEdges(frame, corner))
-      {
-        const PyramidView view(frame, squareHeight(corner));
-        ratios.push_back(lookAtEdges(view, corner, lattice.sign(i, j)).ratio);
-      }
-    }
-  }
-  return ratios.empty() ? 0 : median(std::move(ratios));
-}
-
 /** Grey level of a square's middle, the first of its corners given; 0 outside the picture. */
 float levelOfSquare(const Frame& frame, const LatticeModel& model, double row, double col)
 {
@@ -140,6 +120,25 @@ bool fitEdges(const Lattice& lattice, bool exact, LatticeModel& model)
   const bool bent = exact && lattice.count() >= MIN_BENT;
   return lattice.count() >= MIN_CORNERS &&
          model.fit(lattice, bent ? LatticeModel::quadratic : LatticeModel::robust_homography, RIDGE);
+}
+
+float medianRatio(const Frame& frame, const LatticeModel& model, const Lattice& lattice)
+{
+  std::vector<float> ratios;
+  const cv::Rect box = lattice.box;
+  for (int i = box.y; i < box.br().y; ++i)
+  {
+    for (int j = box.x; j < box.br().x; ++j)
+    {
+      const LocalFrame corner = model.frameAt(i, j);
+      if (lattice.found(i, j) && showsEdges(frame, corner))
+      {
+        const PyramidView view(frame, squareHeight(corner));
+        ratios.push_back(lookAtEdges(view, corner, lattice.sign(i, j)).ratio);
+      }
+    }
+  }
+  return ratios.empty() ? 0 : median(std::move(ratios));
 }
 
 EdgeLine lookAtEdgeLine(const Frame& frame, const LatticeModel& model, const Lattice& lattice, Side side, int distance,

@@ -39,6 +39,9 @@ struct EdgeLine
  */
 bool fitEdges(const Lattice& lattice, bool exact, LatticeModel& model);
 
+/** Median ratio of light to dark at the corners, logarithm; 0 if none shows it. */
+float medianRatio(const Frame& frame, const LatticeModel& model, const Lattice& lattice);
+
 /**
  * @param distance of the line from the outermost corners.
  * @param ratio    of the board's light to its dark, logarithm.
