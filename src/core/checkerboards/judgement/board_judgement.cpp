@@ -106,9 +106,13 @@ bool isOvergrown(const Lattice& lattice)
 
 bool mayBePart(const Lattice& lattice, CornerLooker& looker)
 {
+  if (lattice.count() >= BORDERLESS_CORNERS)
+  {
+    return true;
+  }
   const Evidence evidence = latticeEvidence(lattice);
-  return lattice.count() >= BORDERLESS_CORNERS || evidence.correlation >= BORDERLESS_CORRELATION ||
-         isWhole(lattice, evidence) || std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
+  return evidence.correlation >= BORDERLESS_CORRELATION || isWhole(lattice, evidence) ||
+         std::any_of(SIDES.begin(), SIDES.end(), [&](Side side) {
            const BorderLine border = lookAtBorder(lattice, looker.frame(), side, 1);
            return border.seen >= 2 || border.endsBare();
          });

@@ -164,7 +164,8 @@ std::array<EdgeLine, 4> borderLines(const Frame& frame, const LatticeModel& mode
 /**
  * Whether light squares of a rim end at dark ones somewhere: slivers of squares that go on below what passes for the
  * margin. Of 240 drawn boards with a sheet as light as paper or lighter aslant over an end 32 were certain of a wrong
- * size -> 16, and with isCutAslant() 7; of 2330 other certain boards 60 are not certain so.
+ * size -> 16, and with isCutAslant() 7; of 2330 other certain boards 60 are not certain so. Of 1992 such 48 have more
+ * than 0.05, 23 more than 0.1 and 11 more than 0.15; the least of the drawn slivers have 0.14.
  */
 bool showsSlivers(const std::array<EdgeLine, 4>& lines)
 {
@@ -172,7 +173,11 @@ bool showsSlivers(const std::array<EdgeLine, 4>& lines)
   return std::any_of(lines.begin(), lines.end(), [](const EdgeLine& line) { return line.light > MAX_LIGHT; });
 }
 
-/** Whether dark squares of one rim do not end at its line, while those of the three others do: they are cut aslant. */
+/**
+ * Whether dark squares of one rim do not end at its line, while those of the three others do: they are cut aslant. Of
+ * 1960 other certain boards 23 look so, 20 with a limit of 0.4 and 46 with 0.6; without the others 207 do, as in
+ * shadows.
+ */
 bool isCutAslant(const std::array<EdgeLine, 4>& lines)
 {
   constexpr float MAX_CUT = 0.5F;

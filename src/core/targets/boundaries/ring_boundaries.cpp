@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "median.h"
 #include "ring_roundness.h"
 #include "ring_slopes.h"
 
@@ -39,8 +38,6 @@ constexpr double LARGEST_BLED_CONTRAST = .45;
 // of the field's targets had a wrong number of rings instead of 24, and the evaluation is the same.
 constexpr double MIN_FLANK_SUPPORT = .6;
 constexpr double MIN_FLANK_AGREEMENT = .92;  // times coherence: or else
-
-using Values = std::array<float, ANGLES>;
 
 /** Adds the known radii that split a ring near its middle: nearer to its edges they are flanks of those. */
 void addKnown(const std::vector<double>& known, double limit, std::vector<double>& radii)
@@ -101,8 +98,6 @@ Steps stepsAcross(const RingProfile& profile, const std::vector<double>& radii, 
 /** Sets what the steps in some directions have in common: median, its length, and how much they run alike. */
 void setChange(const std::array<LogColor, ANGLES>& steps, AngleBins directions, Boundary& boundary)
 {
-  std::array<Values, 3> values;
-  int count = 0;
   LogColor sum;
   double length_sum = 0;
   for (int angle = 0; angle < ANGLES; ++angle)
@@ -111,14 +106,9 @@ void setChange(const std::array<LogColor, ANGLES>& steps, AngleBins directions, 
     {
       sum += steps[angle];
       length_sum += cv::norm(steps[angle]);
-      for (int c = 0; c < 3; ++c)
-      {
-        values[c][count] = steps[angle][c];
-      }
-      ++count;
     }
   }
-  boundary.change = LogColor(median(values[0], count), median(values[1], count), median(values[2], count));
+  boundary.change = medianOf(steps, directions);
   boundary.contrast = cv::norm(boundary.change);
   boundary.coherence = length_sum > 0 ? cv::norm(sum) / length_sum : 0;
 }

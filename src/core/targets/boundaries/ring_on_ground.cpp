@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "median.h"
 #include "ring_samples.h"
 
 namespace omr
@@ -75,25 +74,6 @@ struct Circle
   double contrast = 0;  // of what is inside to what is outside
   int run = 0;          // directions side by side that agree
 };
-
-LogColor medianOf(const std::array<LogColor, ANGLES>& colors, AngleBins seen)
-{
-  LogColor result;
-  for (int c = 0; c < 3; ++c)
-  {
-    std::array<float, ANGLES> values{};
-    int count = 0;
-    for (int angle = 0; angle < ANGLES; ++angle)
-    {
-      if ((seen >> angle & 1) != 0)
-      {
-        values[count++] = colors[angle][c];
-      }
-    }
-    result[c] = median(values, count);
-  }
-  return result;
-}
 
 Circle circleAt(const RingProfile& profile, const RayMeans& means, double outermost, double radius, double outside,
                 int scale)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/core/hal/intrin.hpp>
 
+#include "median.h"
 #include "targets/family/bent_sheet.h"
 #include "vectorized.h"
 
@@ -262,6 +263,24 @@ std::vector<double> scaledBy(double factor, std::vector<double> values)
 {
   std::transform(values.begin(), values.end(), values.begin(), [=](double value) { return factor * value; });
   return values;
+}
+
+LogColor medianOf(const std::array<LogColor, RingProfile::ANGLES>& colors, AngleBins directions)
+{
+  std::array<std::array<float, RingProfile::ANGLES>, 3> values;
+  int count = 0;
+  for (int angle = 0; angle < RingProfile::ANGLES; ++angle)
+  {
+    if ((directions >> angle & 1) != 0)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        values[c][count] = colors[angle][c];
+      }
+      ++count;
+    }
+  }
+  return {median(values[0], count), median(values[1], count), median(values[2], count)};
 }
 
 double greyLevel(float log_color)

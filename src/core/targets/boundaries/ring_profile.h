@@ -1,6 +1,7 @@
 #ifndef OUTDOOR_OMR_CORE_RING_PROFILE_H
 #define OUTDOOR_OMR_CORE_RING_PROFILE_H
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -78,6 +79,9 @@ double widestRing(const std::vector<double>& radii);
 
 /** The values times a factor. */
 std::vector<double> scaledBy(double factor, std::vector<double> values);
+
+/** Median of each channel over some directions, of which there is at least one. @param colors one a direction. */
+LogColor medianOf(const std::array<LogColor, RingProfile::ANGLES>& colors, AngleBins directions);
 
 /** The grey level [0, 255] that a channel of a LogColor stands for. */
 double greyLevel(float log_color);

@@ -31,7 +31,7 @@ constexpr double MOST_UNEXPLAINED_UNEVEN = .033;
 constexpr double UNEVEN_WIDTH = 3.5;  // of the narrowest ring, most [px]
 constexpr double UNEVENNESS = 1.6;    // of the widest to the narrowest ring, at least
 // A ring without a letter that is as wide as two of the others is two: of the same 13 with another number of rings have
-// one, and one other; at 1.5 15 and 2, at 1.8 10 and none.
+// one, two of them without any letter, and one other; at 1.5 15 and 2, at 1.8 10 and none.
 constexpr double TWICE_AS_WIDE = 1.6;  // times the mean width of the others
 
 bool showsAll(const std::vector<Boundary>& boundaries)
@@ -67,12 +67,12 @@ bool mergesRings(const RingCandidate& candidate, const std::vector<double>& radi
  */
 bool hasUnreadPair(const std::vector<double>& radii, const std::string& letters)
 {
-  if (letters.find_first_not_of('?') == std::string::npos)
+  if (radii.size() < 3 || letters.find_first_not_of('?') == std::string::npos)
   {
     return false;
   }
   double inner = 0;
-  for (std::size_t k = 0; k < radii.size() && radii.size() > 2; ++k)
+  for (std::size_t k = 0; k < radii.size(); ++k)
   {
     const double width = radii[k] - inner;
     const double others = (radii.back() - width) / static_cast<double>(radii.size() - 1);
