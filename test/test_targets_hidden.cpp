@@ -104,6 +104,18 @@ TEST(HiddenTargets, aRingFarNarrowerThanTheOthersIsDoubted)
   EXPECT_EQ(1U, findTargetsIn(renderTarget(scene)).size());
 }
 
+TEST(HiddenTargets, aHoleInTheDiskIsNoRing)
+{
+  TargetScene scene;
+  for (const double cover : {3., 5., 6.})
+  {
+    scene.cover = cover;
+    const std::vector<Target> targets = findTargetsIn(renderTarget(scene));
+    ASSERT_EQ(1U, targets.size()) << cover;
+    EXPECT_EQ(scene.colors, targets[0].colors) << cover;
+  }
+}
+
 TEST(HiddenTargets, theSidesOfASquareAreNoRing)
 {
   // The sheet's sides touch a circle that resembles another ring.

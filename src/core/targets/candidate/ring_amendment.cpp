@@ -20,14 +20,19 @@ void removeIf(RingCandidate& candidate, Predicate&& predicate)
   {
     if (predicate(k))
     {
-      candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
-      candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
+      removeBoundary(k, candidate);
       continue;
     }
     ++k;
   }
 }
 }  // namespace
+
+void removeBoundary(std::size_t k, RingCandidate& candidate)
+{
+  candidate.boundaries.erase(candidate.boundaries.begin() + static_cast<std::ptrdiff_t>(k));
+  candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
+}
 
 void removeBlur(RingCandidate& candidate)
 {

@@ -1,10 +1,15 @@
 #ifndef OUTDOOR_OMR_CORE_RING_AMENDMENT_H
 #define OUTDOOR_OMR_CORE_RING_AMENDMENT_H
 
+#include <cstddef>
+
 #include "ring_candidate.h"
 
 namespace omr
 {
+/** Makes one ring of ring k and the next. */
+void removeBoundary(std::size_t k, RingCandidate& candidate);
+
 /** Removes what the blur of other boundaries explains. */
 void removeBlur(RingCandidate& candidate);
 
