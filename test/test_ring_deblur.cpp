@@ -211,11 +211,12 @@ TEST(RingDeblur, whatHasNoLetterAndIsAsWideAsTwoIsTwo)
   EXPECT_FALSE(omr::hidesRings(candidate, "???")) << "their centre is all that is told";
 }
 
-TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
+TEST(RingDeblur, evenRingsThatAreReadHideNoneForLittleThatIsUnexplained)
 {
   omr::RingCandidate candidate;
   candidate.visible = 1;
-  const auto hides = [&](double ripple, const std::vector<double>& radii, bool is_certain) {
+  candidate.evidence = 1;
+  const auto hides = [&](double ripple, const std::vector<double>& radii, const std::string& letters) {
     omr::RingProfile profile = greyRings(radii, {200, 60, 200, 60, 200});
     for (int sample = 0; sample < profile.count; ++sample)
     {
@@ -223,21 +224,19 @@ TEST(RingDeblur, evenRingsWithCertainLettersHideNoneForLittleThatIsUnexplained)
     }
     candidate.rings.radii = radii;
     candidate.boundaries.resize(radii.size());
-    candidate.is_certain = is_certain;
     candidate.profile = std::make_shared<omr::RingProfile>(profile);
-    return omr::hidesRings(candidate, std::string(candidate.rings.radii.size(), 'W'));
+    return omr::hidesRings(candidate, letters);
   };
   const std::vector<double> even = {4, 8, 12, 16};
-  const std::vector<double> uneven = {4, 8, 14, 18};
-  EXPECT_FALSE(hides(0, even, false));
-  EXPECT_TRUE(hides(10, even, false));
-  EXPECT_FALSE(hides(10, even, true));
-  EXPECT_TRUE(hides(10, uneven, true)) << "a ring that is wider may be two";
-  EXPECT_TRUE(hides(20, even, true));
-  EXPECT_TRUE(hides(5, {3, 6, 12, 15}, false)) << "one may be two";
-  EXPECT_FALSE(hides(5, {3, 6, 9, 12}, false));
+  EXPECT_FALSE(hides(0, even, "WPW?"));
+  EXPECT_TRUE(hides(10, even, "WPW?"));
+  EXPECT_FALSE(hides(10, even, "WPWP"));
+  EXPECT_TRUE(hides(10, {4, 8, 15, 19}, "WPWP")) << "a ring that is wider may be two";
+  EXPECT_TRUE(hides(20, even, "WPWP"));
+  EXPECT_TRUE(hides(5, {3, 6, 12, 15}, "WPWP")) << "one may be two";
+  EXPECT_FALSE(hides(5, {3, 6, 9, 12}, "WPWP"));
   candidate.visible = .8;
-  EXPECT_TRUE(hides(10, even, true)) << "something may hide them";
+  EXPECT_TRUE(hides(10, even, "WPWP")) << "something may hide them";
 }
 
 int main(int argc, char** argv)

@@ -7,7 +7,6 @@
 #include "resized_part.h"
 #include "ring_lookahead.h"
 #include "target_reading.h"
-#include "targets/candidate/ring_candidate.h"
 #include "targets/candidate/ring_places.h"
 #include "targets/edges/edgels.h"
 #include "targets/seeds/arc_search.h"
@@ -37,8 +36,8 @@ std::vector<ArcFamily> reducedFamilies(std::vector<ArcFamily> families)
 }  // namespace
 
 std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<ArcFamily>& arcs,
-                                    const std::vector<Checkerboard>& boards, int min_rings,
-                                    const std::atomic<bool>* is_vain)
+                                    const std::vector<Checkerboard>& boards, const std::vector<RingCandidate>& refused,
+                                    int min_rings, const std::atomic<bool>* is_vain)
 {
   const cv::Size size(bgr.cols / REDUCTION, bgr.rows / REDUCTION);
   if (size.empty() || (is_vain != nullptr && *is_vain))
@@ -68,7 +67,7 @@ std::vector<Target> findSoftTargets(const cv::Mat& bgr, const std::vector<ArcFam
     moveToImage({1. / REDUCTION, {}}, target);
     // Wheels have soft rings, too, but no letters: the picture of one among 647 that are not of the evaluation.
     const bool is_read = target.colors.find('?') == std::string::npos;
-    if (is_read && !isOnBoard(target.center, boards))
+    if (is_read && !isOnBoard(target.center, boards) && !isInAny(refused, target.center))
     {
       targets.push_back(std::move(target));
     }

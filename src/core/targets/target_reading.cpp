@@ -217,7 +217,7 @@ bool toTargetWithWholeDisk(const cv::Mat& bgr, const RingCandidate& candidate, i
 }
 }  // namespace
 
-std::vector<Target> readTargets(const cv::Mat& bgr, std::vector<RingCandidate> candidates, int min_rings)
+std::vector<Target> readTargets(const cv::Mat& bgr, const std::vector<RingCandidate>& candidates, int min_rings)
 {
   std::vector<Target> read(candidates.size());
   std::vector<char> is_target(candidates.size());

@@ -14,7 +14,7 @@ namespace omr
  *
  * @param bgr CV_8UC3, not filtered, to place the rings by; empty: they stay where their edgels have them.
  */
-std::vector<Target> readTargets(const cv::Mat& bgr, std::vector<RingCandidate> candidates, int min_rings);
+std::vector<Target> readTargets(const cv::Mat& bgr, const std::vector<RingCandidate>& candidates, int min_rings);
 
 }  // namespace omr
 

@@ -45,11 +45,12 @@ struct TargetSearch::State
   {
     growFamilies(of_image, bgr, min_rings, with);
     const std::vector<ArcFamily> arcs = with.arcs;
-    std::vector<Target> found = readTargets(
-        bgr, findRingCandidates(of_image, bgr, regions, std::move(with), boards, min_rings, is_vain), min_rings);
+    const std::vector<RingCandidate> candidates =
+        findRingCandidates(of_image, bgr, regions, std::move(with), boards, min_rings, is_vain);
+    std::vector<Target> found = readTargets(bgr, candidates, min_rings);
     if (found.empty())  // beside others it would take a tenth of the time
     {
-      found = findSoftTargets(bgr, arcs, boards, min_rings, is_vain);
+      found = findSoftTargets(bgr, arcs, boards, candidates, min_rings, is_vain);
     }
     return found;
   }
