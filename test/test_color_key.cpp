@@ -210,7 +210,6 @@ TEST(ColorKey, clearLettersMayExplainCloseRingsWorse)
   };
   EXPECT_EQ("???", read(false).letters);
   EXPECT_EQ("WRB", read(true).letters);
-  EXPECT_FALSE(read(true).is_certain);
 }
 
 TEST(ColorKey, aMixtureOfTwoRingsIsNotCertain)

@@ -131,7 +131,6 @@ bool growSpot(const EdgelMap& map, const cv::Mat& bgr, const RoundSpot& spot, in
   {
     candidate = std::move(enlarged);
   }
-  candidate.is_spot = true;
   return is_target || is_enlarged_target;
 }
 

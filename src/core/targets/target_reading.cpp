@@ -90,11 +90,10 @@ bool hasHue(const std::string& letters)
   return letters.find_first_of("RGB") != std::string::npos;
 }
 
-/** Whether small rings, each with its letter, are clear enough: eyes and lenses have no hue. */
+/** Whether small rings, each with its letter, fit closely enough: eyes and lenses have no hue. */
 bool isKnownSmall(const Target& target, const RingCandidate& candidate)
 {
-  return hasHue(target.colors) && candidate.evidence * candidate.visible > CLEAR && fitsClosely(candidate.rings) &&
-         2 * candidate.rings.radii.back() > EYE_DIAMETER &&
+  return hasHue(target.colors) && fitsClosely(candidate.rings) && 2 * candidate.rings.radii.back() > EYE_DIAMETER &&
          (candidate.is_explained || narrowestRing(candidate.rings.radii) > NARROWEST_WIDTH);
 }
 
@@ -110,28 +109,25 @@ bool isCoveredInPart(const Target& target, const RingCandidate& candidate)
 
 /**
  * Three narrow rings and fewer, which lenses and letters have too, are a target only if nearly all can be read; a
- * target of which half cannot be read must fit well. Of a round spot, which clutter has too, more than half must be
- * read: most spots of which less is have another number of rings.
+ * target of which half cannot be read must fit well.
  */
 bool isReadable(const Target& target, const RingCandidate& candidate, int min_rings)
 {
   const auto count = static_cast<int>(target.colors.size());
   const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
-  const int counted = std::min(count, candidate.ring_count);
   const double clearness = candidate.evidence * candidate.visible;
   const double most = (unknown < count || clearness > VERY_CLEAR ? HALF_READ_RMS : UNREAD_RMS) +
                       RELATIVE_RMS * candidate.rings.radii.back();
-  if (counted < min_rings || isBlurred(candidate, count, unknown) ||
-      (2 * unknown >= count && (candidate.is_spot || candidate.rings.rms > most)))
+  if (count < min_rings || isBlurred(candidate, count, unknown) || (2 * unknown >= count && candidate.rings.rms > most))
   {
     return false;
   }
   const cv::Size2f size = target.rings.back().size;
   const float diameter = std::min(size.width, size.height);
-  if (counted <= 3 && diameter < MEDIUM_DIAMETER)
+  if (count <= 3 && diameter < MEDIUM_DIAMETER)
   {
     const bool is_small = diameter < SMALL_DIAMETER;
-    const bool is_all_needed = candidate.is_spot || (is_small && target.colors[0] == '?');
+    const bool is_all_needed = is_small && target.colors[0] == '?';
     const bool is_known = unknown == 0 && (!is_small || isKnownSmall(target, candidate));
     return unknown <= (is_all_needed ? 0 : 1) &&
            (clearness > VERY_CLEAR || is_known || (!is_small && isCoveredInPart(target, candidate)));
@@ -146,7 +142,7 @@ bool isSure(const Target& target, double radius)
   const auto unknown = static_cast<int>(std::count(target.colors.begin(), target.colors.end(), '?'));
   const bool is_doubtful = !hasHue(target.colors) && unknown * DOUBTFUL_SHARE > count;
   const double limit = (is_doubtful ? DOUBTFUL_UNSURE : UNSURE) + RELATIVE_UNSURE * radius;
-  return target.outermost_deviation < limit && !(is_doubtful && target.outermost_deviation == 0);
+  return target.outermost_deviation < limit;
 }
 
 void setRings(const Rings& rings, Target& target)

@@ -12,18 +12,17 @@ namespace omr
 {
 namespace
 {
-constexpr double LEAST_NOISE = 1;        // [grey levels]
-constexpr double LEAST_STEP = 3;         // of most arcs of a boundary [grey levels]
-constexpr double COVERED_LACKING = 2.5;  // times that of most arcs of the boundary
-constexpr double COVERED_STEP = .3;      // difference from that of most arcs, relative
-constexpr double STEP_NOISE = 6;         // the same, by the noise of a pixel over the root of their number
+constexpr double LEAST_NOISE = 1;    // [grey levels]
+constexpr double LEAST_STEP = 3;     // of most arcs of a boundary [grey levels]
+constexpr double COVERED_STEP = .3;  // difference from that of most arcs, relative
+constexpr double STEP_NOISE = 6;     // the same, by the noise of a pixel over the root of their number
 // Deviation that sheets have from planes, and edges from even ones, beside the noise [px].
 constexpr double UNEVEN = .03;
 // A plane's perspective is sin(tilt) over the focal length, which is near to the longer side of the image; nearly
 // straight on the tilt itself is uncertain.
 constexpr double LEAST_TILT = .1;
 
-/** The arcs that nothing covers: their steps, and what they lack, are as of most arcs of the boundary. */
+/** The arcs that nothing covers: their steps are as of most arcs of the boundary. */
 std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std::size_t rings)
 {
   std::vector<std::vector<double>> steps(rings);
@@ -48,8 +47,7 @@ std::vector<BoundaryPoint> openPoints(const std::vector<BoundaryArc>& arcs, std:
   {
     const int k = arc.ring;
     const double usual = COVERED_STEP * std::abs(step[k]) + STEP_NOISE * noise[k] / std::sqrt(arc.pixels);
-    if (std::abs(step[k]) > LEAST_STEP && arc.lacking < COVERED_LACKING * noise[k] &&
-        std::abs(arc.step - step[k]) < usual)
+    if (std::abs(step[k]) > LEAST_STEP && std::abs(arc.step - step[k]) < usual)
     {
       points.push_back({arc.position, k, 1 / std::hypot(noise[k] / arc.steepness, UNEVEN)});
     }

@@ -18,10 +18,6 @@ constexpr double LARGE_RADIUS = 25;    // [px]
 constexpr double SMALLEST_DISK = 2;    // radius [px]
 constexpr double MOSTLY_VISIBLE = .8;  // of the directions
 constexpr double LEAST_VISIBLE = .66;  // round arches show .5 to .65
-// The disk of three rings that is a bar's middle: no-entry signs have 0 to .23 of the edges and .70 to .75 agreement.
-constexpr double BAR_CONTRAST = .5;
-constexpr double BAR_SUPPORT = .3;     // most
-constexpr double BAR_AGREEMENT = .85;  // most
 // What is seen in the open directions alone. Of 391 pictures of clutter, portals come nearest: with 5 rings and more
 // they show 1.6 to 2.6 turns, fit to .08 px + .0018 of the radius and worse, and are one-sided by .4 to .7.
 constexpr double OPEN_VISIBLE = .42;  // of the directions
@@ -76,13 +72,6 @@ double largestPerspective(const RingFamily& family, const cv::Size& image_size)
   const double aspect = family.aspect();
   return std::sqrt(std::max(0., 1 - 1 / (aspect * aspect)) * aspect) /
          (.5 * std::max(image_size.width, image_size.height));
-}
-
-/** Whether the disk is a bar's middle, as of a no-entry sign: a strong step that has hardly an edge along its circle.
- */
-bool isBar(const Boundary& disk)
-{
-  return disk.contrast > BAR_CONTRAST && share(disk.supported) < BAR_SUPPORT && disk.agreement < BAR_AGREEMENT;
 }
 
 /** Directions in which the boundaries show, all together [turns]. */
@@ -148,7 +137,7 @@ bool isVeryClear(const RingCandidate& candidate)
   return candidate.evidence * candidate.visible > VERY_CLEAR;
 }
 
-/** Whether there are enough rings, of a plane that a camera can see so, the disk no sign's bar. */
+/** Whether there are enough rings, of a plane that a camera can see so. */
 bool isPossible(const RingCandidate& candidate, int min_rings)
 {
   const Rings& rings = candidate.rings;
@@ -158,9 +147,7 @@ bool isPossible(const RingCandidate& candidate, int min_rings)
   const bool is_very_clear = radius > SMALL_RADIUS && isVeryClear(candidate) && rings.rms < closeRms(radius);
   const double most =
       slack / radius + (is_very_clear ? WIDE_VIEW : 1) * largestPerspective(rings.family, candidate.image_size);
-  const bool is_sign =
-      candidate.ring_count < MANY_RINGS && candidate.visible > MOSTLY_VISIBLE && isBar(candidate.boundaries.front());
-  return candidate.ring_count >= min_rings && perspective <= most && !is_sign;
+  return candidate.ring_count >= min_rings && perspective <= most;
 }
 
 /** Whether it is one by the share of the directions in which it shows, or all around where it is open. */

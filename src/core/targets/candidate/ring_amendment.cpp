@@ -9,23 +9,8 @@ namespace omr
 namespace
 {
 constexpr int MOST_SPLITS = 2;
-constexpr double LEAST_SHOWN = .12;  // of the directions
-constexpr double WHOLE = .8;         // likewise
+constexpr double WHOLE = .8;  // of the directions
 
-/** Removes the boundaries of which the predicate is true of their index, while three are left. */
-template <typename Predicate>
-void removeIf(RingCandidate& candidate, Predicate&& predicate)
-{
-  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
-  {
-    if (predicate(k))
-    {
-      removeBoundary(k, candidate);
-      continue;
-    }
-    ++k;
-  }
-}
 }  // namespace
 
 void removeBoundary(std::size_t k, RingCandidate& candidate)
@@ -36,16 +21,15 @@ void removeBoundary(std::size_t k, RingCandidate& candidate)
 
 void removeBlur(RingCandidate& candidate)
 {
-  removeIf(candidate, [&](std::size_t k) {
-    return isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k);
-  });
-}
-
-void removeUnseen(RingCandidate& candidate)
-{
-  removeIf(candidate, [&](std::size_t k) {
-    return share(candidate.boundaries[k].agreeing & candidate.boundaries[k].supported) < LEAST_SHOWN;
-  });
+  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
+  {
+    if (isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k))
+    {
+      removeBoundary(k, candidate);
+      continue;
+    }
+    ++k;
+  }
 }
 
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)

@@ -13,9 +13,6 @@ void removeBoundary(std::size_t k, RingCandidate& candidate);
 /** Removes what the blur of other boundaries explains. */
 void removeBlur(RingCandidate& candidate);
 
-/** Removes boundaries that hardly an edge shows: where occluders leave few directions, their edges make such ones. */
-void removeUnseen(RingCandidate& candidate);
-
 /** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate);
 

@@ -31,9 +31,6 @@ constexpr double BENT_RELATIVE_RMS = .002;
 constexpr double BENT_GAIN = .75;  // of the root mean square, at least
 constexpr double SMALL_GAIN = .6;  // of rings of less than SMALL_BENT_RADIUS, whose few edgels a bend fits easily
 constexpr double SMALL_BENT_RADIUS = 25;  // [px]
-constexpr double SMALL_VISIBLE = .9;      // of such rings, at least: else a bend puts the centre anywhere
-constexpr double NEEDED_GAIN = .8;        // where the rings are a target's only so
-constexpr double BENT_LOSS = .02;         // of evidence x visible share, at most
 
 // Of rings that something hides in the other directions.
 constexpr int OPEN_RINGS = 3;
@@ -133,30 +130,17 @@ bool settle(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::ve
 bool looksBent(const RingCandidate& candidate)
 {
   const double radius = candidate.rings.radii.back();
-  return (radius > SMALL_BENT_RADIUS || candidate.visible > SMALL_VISIBLE) &&
-         candidate.boundaries.size() >= std::size_t{BENT_RINGS} && radius > BENT_RADIUS &&
+  return candidate.boundaries.size() >= std::size_t{BENT_RINGS} && radius > BENT_RADIUS &&
          candidate.evidence > BENT_EVIDENCE && candidate.rings.rms > BENT_RMS + BENT_RELATIVE_RMS * radius;
-}
-
-/** How clear the rings are, all together: one more may show less than the others, and is seen nevertheless. */
-double clearness(const RingCandidate& candidate)
-{
-  return candidate.evidence * candidate.visible * static_cast<double>(candidate.boundaries.size());
 }
 
 /** Takes the sheet as bent where that explains the rings better. */
 void tryBend(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate, std::vector<RadialEdgel>& edgels)
 {
   RingCandidate bent = candidate;
-  bent.ring_count = candidate.ring_count = static_cast<int>(candidate.boundaries.size());
-  const double gain = candidate.rings.radii.back() < SMALL_BENT_RADIUS ? SMALL_GAIN
-                      : isTarget(candidate, BENT_RINGS)                ? BENT_GAIN
-                                                                       : NEEDED_GAIN;
+  const double gain = candidate.rings.radii.back() < SMALL_BENT_RADIUS ? SMALL_GAIN : BENT_GAIN;
   std::vector<RadialEdgel> bent_edgels;
-  if (bendRings(map, bent.rings) && settle(map, bgr, bent, bent_edgels) &&
-      bent.boundaries.size() >= candidate.boundaries.size() &&
-      clearness(bent) > clearness(candidate) - BENT_LOSS * static_cast<double>(bent.boundaries.size()) &&
-      bent.rings.rms < gain * candidate.rings.rms)
+  if (bendRings(map, bent.rings) && settle(map, bgr, bent, bent_edgels) && bent.rings.rms < gain * candidate.rings.rms)
   {
     candidate = std::move(bent);
     edgels.swap(bent_edgels);
@@ -198,10 +182,6 @@ bool completeOpen(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
     widenSeam(support, candidate);
   }
   removeBlur(candidate);
-  if (~rings.open != 0)
-  {
-    removeUnseen(candidate);
-  }
   addPartialBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
   Boundary& disk = candidate.boundaries.front();

@@ -19,7 +19,6 @@ struct RingCandidate
   std::vector<Boundary> boundaries;            ///< one per radius of rings; fewer once readLetters() changed them
   int ring_count = 0;                          ///< of them, that were found without assuming equal rings
   std::shared_ptr<const RingProfile> profile;  ///< of the final family; half a megabyte, which copies share
-  bool is_spot = false;       ///< grown from a round spot, which has neither regions nor a family of arcs
   bool is_merged = false;     ///< two boundaries of narrow rings, which are a target if inks tell that they are more
   bool is_certain = false;    ///< of the letters of the rings that show, as readLetters() found: no mixture is
   bool is_explained = false;  ///< by inks, as readLetters() found: then the blur hides no narrow ring

@@ -9,9 +9,8 @@ namespace omr
 {
 namespace
 {
-constexpr double UNDISPUTED = .85;          // evidence x visible share of a candidate that no other seed will better
-constexpr double UNDISPUTED_EVIDENCE = .9;  // of a half-hidden one
-constexpr double NEAR = 1.1;                // squares: on a board that shows there is a corner
+constexpr double UNDISPUTED = .85;  // evidence x visible share of a candidate that no other seed will better
+constexpr double NEAR = 1.1;        // squares: on a board that shows there is a corner
 
 bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 {
@@ -20,8 +19,7 @@ bool contains(const RingCandidate& candidate, const cv::Point2d& point)
 
 bool isUndisputed(const RingCandidate& candidate)
 {
-  return !candidate.is_merged && (candidate.evidence * candidate.visible > UNDISPUTED ||
-                                  (~candidate.rings.open == 0 && candidate.evidence > UNDISPUTED_EVIDENCE));
+  return !candidate.is_merged && candidate.evidence * candidate.visible > UNDISPUTED;
 }
 
 /** Whether a corner of the board is seen beside a point. @param square side of a square [px] */

@@ -29,8 +29,6 @@ constexpr double CLEAR_MARGIN = 6;
 constexpr double CERTAIN_MARGIN = 5;
 constexpr double CERTAIN_COST = 4;  // most, of a ring
 constexpr double CERTAIN_HAZE = .2;
-constexpr double THICK_HAZE = .4;
-constexpr double UNEXPLAINED_IN_HAZE = 3;  // cost of the whole a ring, through a thick haze
 // Cost of a ring that no letter explains. Grey, which a black disk shows below gloss, costs 5.9 as a green.
 constexpr double UNEXPLAINED = 5;
 
@@ -235,9 +233,8 @@ KeyReading readColorKey(const std::vector<ColorMeasurement>& ways, const std::ve
   }
   const Explanation& best = search.best();
   const RingCosts costs = search.costs();
-  const bool is_clear = is_close && best.haze <= CERTAIN_HAZE && costs.least_margin > CLEAR_MARGIN;
-  const bool is_unexplained = costs.median > (is_clear ? UNEXPLAINED_CLEAR_MEDIAN : UNEXPLAINED_MEDIAN) ||
-                              (best.haze > THICK_HAZE && best.cost > UNEXPLAINED_IN_HAZE * seen_count);
+  const bool is_clear = is_close && costs.least_margin > CLEAR_MARGIN;
+  const bool is_unexplained = costs.median > (is_clear ? UNEXPLAINED_CLEAR_MEDIAN : UNEXPLAINED_MEDIAN);
   for (std::size_t k = 0; k < count; ++k)
   {
     const bool readable =
@@ -247,8 +244,7 @@ KeyReading readColorKey(const std::vector<ColorMeasurement>& ways, const std::ve
   const auto read_count =
       count - static_cast<std::size_t>(std::count(reading.letters.begin(), reading.letters.end(), '?'));
   reading.is_certain = static_cast<double>(read_count) == seen_count && best.haze <= CERTAIN_HAZE &&
-                       costs.least_margin > CERTAIN_MARGIN && costs.largest < CERTAIN_COST &&
-                       costs.median <= UNEXPLAINED_MEDIAN;
+                       costs.least_margin > CERTAIN_MARGIN && costs.largest < CERTAIN_COST;
   return reading;
 }
 

@@ -40,13 +40,13 @@ constexpr std::array<double, 3> SPLITS = {.4, .5, .6};  // of a ring's width
 
 using Radii = std::vector<double>;
 
-/** Rings of equal width, one less than were found to MOST_ADDED more. */
+/** Rings of equal width, as many as were found to MOST_ADDED more. */
 std::vector<Radii> equalRings(const Radii& found, double narrowest)
 {
   const double outermost = found.back();
   const std::size_t most = std::min(found.size() + MOST_ADDED, MOST_NARROW_RINGS);
   std::vector<Radii> sets;
-  for (std::size_t count = std::max(LEAST_RINGS, found.size() - 1);
+  for (std::size_t count = std::max(LEAST_RINGS, found.size());
        count <= most && outermost > static_cast<double>(count) * narrowest; ++count)
   {
     Radii radii;

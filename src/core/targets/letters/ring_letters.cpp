@@ -33,7 +33,6 @@ constexpr double HALO_HUE = .15;   // most, from the line between the neighbours
 
 // Where the inks tell which rings there are.
 constexpr double NARROW = 5;          // of the narrowest ring, most [px]
-constexpr double NARROW_MEAN = 7;     // width of all rings, most: a narrow one among wide ones is no ring [px]
 constexpr double ROUND = .7;          // share of the directions, least: outlines of square sheets have .52 to .62
 constexpr double SAME_BOUNDARY = .5;  // most, of the width of the narrowest ring
 // Narrower rings are hidden by the blur, which inks explain; wider ones by what lies on them. Where the key knows no
@@ -141,12 +140,6 @@ KeyReading readColors(const RingProfile& profile, bool is_close, std::vector<Bou
   }
 }
 
-/** Whether the blur merges the rings, as they are narrow as a whole. */
-bool areNarrow(const std::vector<double>& radii)
-{
-  return narrowestRing(radii) < NARROW && radii.back() < NARROW_MEAN * static_cast<double>(radii.size());
-}
-
 AngleBins shownAt(const Boundary& boundary)
 {
   return boundary.agreeing & boundary.supported;
@@ -164,20 +157,13 @@ bool isRound(const std::vector<Boundary>& boundaries)
 }
 
 /** Letters that inks explain, but that something may hide, become '?'. @param key what colours alone tell. */
-void doubtHidden(const RingCandidate& candidate, const std::string& key, NarrowRings& rings)
+void doubtHidden(const std::string& key, double profile_scale, NarrowRings& rings)
 {
-  const double apart = SAME_BOUNDARY * narrowestRing(rings.radii);
   double inner = 0;
   for (std::size_t k = 0; k < rings.radii.size(); ++k)
   {
-    bool is_shown = true;
-    for (std::size_t i = 0; i < candidate.boundaries.size(); ++i)
-    {
-      const double radius = candidate.profile_scale * candidate.rings.radii[i];
-      is_shown = is_shown && (candidate.boundaries[i].shown || std::abs(radius - rings.radii[k]) > apart);
-    }
     const bool is_unexplained = key.size() == rings.radii.size() && key[k] == '?' && rings.rests[k] > MOST_COVERED_REST;
-    if (rings.radii[k] - inner > COVERED_WIDTH * candidate.profile_scale && (!is_shown || is_unexplained))
+    if (rings.radii[k] - inner > COVERED_WIDTH * profile_scale && is_unexplained)
     {
       rings.letters[k] = '?';
     }
@@ -218,7 +204,7 @@ std::string readLetters(RingCandidate& candidate)
   const std::string& letters = key.letters;
   left = scaledBy(1. / candidate.profile_scale, left);
   // Halos would make narrow rings of wide ones: inks read a noisy BGBRG of 8 px as BGBPRG.
-  if (areNarrow(left))
+  if (narrowestRing(left) < NARROW)
   {
     NarrowRings rings;
     const auto read = [&](const std::vector<double>& found, Ground ground) {
@@ -228,7 +214,7 @@ std::string readLetters(RingCandidate& candidate)
     if ((is_sheet && read({radii.begin(), radii.end() - 1}, Ground::white)) ||
         read(radii, is_sheet ? Ground::white : Ground::any))
     {
-      doubtHidden(candidate, letters, rings);
+      doubtHidden(letters, candidate.profile_scale, rings);
       takeRings(scaledBy(1. / candidate.profile_scale, rings.radii), candidate);
       candidate.is_explained = true;
       return rings.letters;
