@@ -237,22 +237,6 @@ TEST(RingBoundaries, edgesOfEitherSignSupportAChangeOfHue)
   }
 }
 
-TEST(ShowsBoundaries, circlesOfATargetButNotOfTexture)
-{
-  TargetScene scene;
-  scene.colors = "RWPGB";
-  scene.radii = {20, 40, 60, 80, 100};
-  omr::RingFamily family;
-  family.center = projectedCenter(scene);
-  const cv::Mat image = renderTarget(scene);
-  EXPECT_TRUE(omr::showsBoundaries(image, family, scene.radii));
-  EXPECT_TRUE(omr::showsBoundaries(image, family, {58, 77}));  // arcs give them roughly
-  cv::Mat texture(image.size(), CV_8UC3);
-  cv::randu(texture, 0, 256);
-  EXPECT_FALSE(omr::showsBoundaries(texture, family, scene.radii));
-  EXPECT_TRUE(omr::showsBoundaries(texture, family, {10, 20}));  // the look is for large ones
-}
-
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

@@ -268,10 +268,6 @@ bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed, bool
 bool growCandidate(EdgelMap& map, const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii,
                    RingCandidate& candidate)
 {
-  if (!showsBoundaries(bgr, family, radii))
-  {
-    return false;
-  }
   Rings& rings = candidate.rings;
   rings = {family, radii, 0};
   if (radii.size() < ENOUGH_KNOWN)

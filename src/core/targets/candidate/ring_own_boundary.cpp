@@ -63,29 +63,4 @@ bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed)
   return best >= .55;
 }
 
-bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii)
-{
-  constexpr double SMALL = 30;                      // radius [px]; below it arcs may give a wrong circle
-  constexpr AngleBins LOOKS = 0x1111111111111111U;  // every fourth direction
-  constexpr double REACH = 1.3;                     // relative to the outermost radius
-  constexpr double MIN_MARGIN = 6;                  // [px]
-  // 719 targets, 304 of them in warped pictures, have .63 and more; of 205 families of this size that become none 54
-  // end here, with 315 of 800 ms.
-  constexpr double LEAST_COHERENCE = .5;
-  if (radii.back() < SMALL)
-  {
-    return true;
-  }
-  const double reach = REACH * radii.back() + MIN_MARGIN;
-  RingProfile profile;
-  sampleProfile(bgr, family, reach, profile, LOOKS);
-  const AngularSupport no_edgels({}, reach);
-  std::size_t alike = 0;
-  for (std::size_t k = 0; k < radii.size(); ++k)
-  {
-    alike += measureBoundary(profile, no_edgels, radii, k).coherence > LEAST_COHERENCE ? 1 : 0;
-  }
-  return alike >= (radii.size() < 3 ? 1 : 2);
-}
-
 }  // namespace omr

@@ -2,7 +2,6 @@
 #define OUTDOOR_OMR_CORE_RING_OWN_BOUNDARY_H
 
 #include <opencv2/core.hpp>
-#include <vector>
 
 #include "targets/edges/edgels.h"
 #include "targets/seeds/ring_seeds.h"
@@ -11,9 +10,6 @@ namespace omr
 {
 /** Whether there is an edge where the seed's region ends, most of the way around: a cheap first look. */
 bool hasOwnBoundary(EdgelMap& map, const cv::Mat& bgr, const RingSeed& seed);
-
-/** Whether the colour changes alike around some of a family's circles: a look without edgels, at large ones only. */
-bool showsBoundaries(const cv::Mat& bgr, const RingFamily& family, const std::vector<double>& radii);
 
 }  // namespace omr
 
