@@ -101,7 +101,6 @@ Markers Detector::findMarkers(const cv::Mat& bgr, const Settings& settings, cons
   {
     look = target_worker_->begin([&, expected = boards_expected.get_future().share()] {
       image_look.get();
-      targets.lookAtRegions(regions);
       expected.get();
       targets.lookAtRest(regions);
     });

@@ -1,16 +1,13 @@
 #ifndef OUTDOOR_OMR_CORE_RING_LOOKAHEAD_H
 #define OUTDOOR_OMR_CORE_RING_LOOKAHEAD_H
 
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "outdoor_omr/region.h"
 #include "targets/candidate/ring_acceptance.h"
 #include "targets/candidate/ring_candidate.h"
 #include "targets/edges/edgels.h"
 #include "targets/seeds/arc_families.h"
-#include "targets/seeds/ring_seeds.h"
 #include "targets/seeds/round_spots.h"
 
 namespace omr
@@ -39,22 +36,16 @@ struct GrownSeed
   EdgelMap map;  ///< a fork, which knows the looks that it took
 };
 
-/** What the search begins with: families of arcs, and the round seeds and spots of an image, some grown already. */
+/** What the search begins with: families of arcs, grown already, and the round spots of an image. */
 struct RoundSeeds
 {
-  std::vector<RingSeed> seeds;
-  std::vector<std::optional<GrownSeed>> grown;  // one a seed
-  std::vector<ArcFamily> arcs;                  // their families, the one with most arcs first
-  std::vector<GrownSeed> families;              // one for each of them
-  std::vector<RoundSpot> spots;                 // the roundest first
+  std::vector<ArcFamily> arcs;      // their families, the one with most arcs first
+  std::vector<GrownSeed> families;  // one for each of them
+  std::vector<RoundSpot> spots;     // the roundest first
   bool has_arcs = false;
   bool has_families = false;
   bool has_spots = false;
-  bool has_seeds = false;
 };
-
-/** Finds the round seeds, if that was not done before. */
-void addRoundSeeds(const RegionMap& regions, RoundSeeds& seeds);
 
 /** Finds and grows the families of arcs, from which most targets come, what of it was not done before. */
 void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
@@ -65,15 +56,6 @@ void growFamilies(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundS
  * @param image CV_8UC1 or CV_8UC3.
  */
 void addRoundSpots(const cv::Mat& image, RoundSeeds& seeds);
-
-/**
- * Grows seeds that share their centre with others, as long as there is one outside of what was found: those that
- * findRingCandidates() goes on with, if they lie on no board.
- */
-void growConcentric(const EdgelMap& map, const cv::Mat& bgr, int min_rings, RoundSeeds& seeds);
-
-/** Grows a seed whose boundary was seen. */
-void growSeed(const cv::Mat& bgr, const RingSeed& seed, bool is_boundary, int min_rings, GrownSeed& grown);
 
 }  // namespace omr
 

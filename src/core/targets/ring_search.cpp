@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <opencv2/core.hpp>
 #include <utility>
 
@@ -54,24 +53,18 @@ class Search
     }
   }
 
-  void tryRound(RoundSeeds& seeds, bool with_companions)
+  void tryRound(const std::vector<RingSeed>& seeds)
   {
-    for (std::size_t i = 0; i < seeds.seeds.size(); ++i)
+    for (const RingSeed& seed : seeds)
     {
-      const RingSeed& seed = seeds.seeds[i];
-      if ((seed.companions > 0) != with_companions || !isOpen(seed))
+      if (!isOpen(seed))
       {
-        continue;
-      }
-      if (seeds.grown[i])
-      {
-        add(Growth(seed, true, true, std::move(*seeds.grown[i])));
         continue;
       }
       EdgelMap fork = map_.fork();
       if (hasOwnBoundary(fork, bgr_, seed))
       {
-        add(Growth(seed, true, false, GrownSeed(std::move(fork))));
+        add(Growth(seed, true, GrownSeed(std::move(fork))));
       }
       else
       {
@@ -87,7 +80,7 @@ class Search
     {
       if ((arc.votes > MANY_VOTES) == with_many_votes && isOpen(arc.seed))
       {
-        add(Growth(arc.seed, false, false, GrownSeed(map_.fork())));
+        add(Growth(arc.seed, false, GrownSeed(map_.fork())));
       }
     }
     growWaiting();
@@ -164,14 +157,13 @@ class Search
  private:
   struct Growth
   {
-    Growth(const RingSeed& source, bool has_boundary, bool done, GrownSeed start)
-        : seed(&source), is_boundary(has_boundary), is_grown(done), grown(std::move(start))
+    Growth(const RingSeed& source, bool has_boundary, GrownSeed start)
+        : seed(&source), is_boundary(has_boundary), grown(std::move(start))
     {
     }
 
     const RingSeed* seed;
     bool is_boundary;
-    bool is_grown;
     GrownSeed grown;
   };
 
@@ -212,10 +204,8 @@ class Search
       for (int i = range.start; i < range.end; ++i)
       {
         Growth& growth = waiting_[i];
-        if (!growth.is_grown)
-        {
-          growSeed(bgr_, *growth.seed, growth.is_boundary, min_rings_, growth.grown);
-        }
+        GrownSeed& grown = growth.grown;
+        grown.settle(growCandidate(grown.map, bgr_, *growth.seed, growth.is_boundary, grown.candidate), min_rings_);
       }
     });
     for (Growth& growth : waiting_)
@@ -248,16 +238,14 @@ std::vector<RingCandidate> findRingCandidates(EdgelMap& map, const cv::Mat& bgr,
 {
   growFamilies(map, bgr, min_rings, seeds);
   addRoundSpots(bgr, seeds);
-  addRoundSeeds(regions, seeds);
   Search search(map, bgr, boards, min_rings, is_vain);
   search.tryFamilies(seeds.families);
-  search.allow(CONCENTRIC_SHARE);
-  search.tryRound(seeds, true);
   search.allow(PIECES_SHARE);
   const std::vector<ArcSeed> arcs = search.findArcs(regions.regions);
   search.tryArcs(arcs, true);
-  search.allow(SINGLE_SHARE);
-  search.tryRound(seeds, false);
+  const std::vector<RingSeed> round = findRoundSeeds(regions.regions);  // what waits refers to them
+  search.allow(ROUND_SHARE);
+  search.tryRound(round);
   search.allow(1);
   search.tryArcs(arcs, false);
   search.trySpots(seeds.spots);

@@ -87,15 +87,6 @@ void TargetSearch::lookAtGrey(const cv::Mat& grey)
   }
 }
 
-void TargetSearch::lookAtRegions(const RegionMap& regions)
-{
-  if (state_->prepare())
-  {
-    addRoundSeeds(regions, state_->seeds);
-    growConcentric(*state_->map, state_->bgr, state_->min_rings, state_->seeds);
-  }
-}
-
 void TargetSearch::expect(const std::vector<Checkerboard>& boards)
 {
   state_->expected = boards;

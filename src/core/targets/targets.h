@@ -43,9 +43,6 @@ class TargetSearch
    */
   void lookAtGrey(const cv::Mat& grey);
 
-  /** Grows the regions that promise most; likewise. */
-  void lookAtRegions(const RegionMap& regions);
-
   /** Names the boards that there seem to be. */
   void expect(const std::vector<Checkerboard>& boards);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace omr
 {
@@ -23,10 +22,6 @@ constexpr double PARALLELOGRAM = .955;
 constexpr double PARALLELOGRAM_TOLERANCE = .02;
 constexpr double ELLIPSE_BOX_TOLERANCE = .03;  // of an ellipse's box, which is 4 deviations wide
 constexpr int PARALLELOGRAM_MIN_AREA = 120;    // [px]; in smaller regions pixels make the two alike
-
-constexpr double CONCENTRIC_TOLERANCE = .03;  // of a seed's radius, between centres: perspective moves them
-constexpr double CONCENTRIC_SLACK = 1;        // [px]
-constexpr int MAX_COMPANIONS = 2;             // more make no difference
 
 double compactness(const Region& region)
 {
@@ -63,30 +58,6 @@ bool isRound(const Region& region, RingSeed& seed)
          seed.family.aspect() < MAX_ASPECT;
 }
 
-/** Counts for each seed the others with the same centre, up to MAX_COMPANIONS. @param seeds by ascending radius. */
-void countConcentric(std::vector<RingSeed>& seeds)
-{
-  std::vector<std::size_t> by_x(seeds.size());
-  std::iota(by_x.begin(), by_x.end(), 0);
-  std::sort(by_x.begin(), by_x.end(), [&](std::size_t left, std::size_t right) {
-    return seeds[left].family.center.x < seeds[right].family.center.x;
-  });
-  const auto reach_of = [](double radius) { return CONCENTRIC_SLACK + CONCENTRIC_TOLERANCE * radius; };
-  const double farthest = reach_of(seeds.empty() ? 0 : seeds.back().radius);
-  for (auto i = by_x.begin(); i != by_x.end(); ++i)
-  {
-    RingSeed& seed = seeds[*i];
-    for (auto j = i + 1; j != by_x.end() && seeds[*j].family.center.x - seed.family.center.x < farthest; ++j)
-    {
-      RingSeed& other = seeds[*j];
-      if (cv::norm(other.family.center - seed.family.center) < reach_of(std::max(seed.radius, other.radius)))
-      {
-        seed.companions = std::min(seed.companions + 1, MAX_COMPANIONS);
-        other.companions = std::min(other.companions + 1, MAX_COMPANIONS);
-      }
-    }
-  }
-}
 }  // namespace
 
 bool isParallelogram(const Region& region)
@@ -112,9 +83,6 @@ std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions)
   }
   std::stable_sort(seeds.begin(), seeds.end(),
                    [](const RingSeed& left, const RingSeed& right) { return left.radius < right.radius; });
-  countConcentric(seeds);
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const RingSeed& left, const RingSeed& right) { return left.companions > right.companions; });
   return seeds;
 }
 

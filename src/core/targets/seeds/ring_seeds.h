@@ -13,8 +13,7 @@ namespace omr
 struct RingSeed
 {
   RingFamily family;
-  double radius = 0;   ///< of the region's outer boundary [px]
-  int companions = 0;  ///< round seeds around the same centre, as far as they were counted
+  double radius = 0;  ///< of the region's outer boundary [px]
 };
 
 /** Whether area, moments and box are a parallelogram's, such as a checkerboard's squares, rather than an ellipse's. */
@@ -22,8 +21,7 @@ bool isParallelogram(const Region& region);
 
 /**
  * Regions that are elliptic disks or annuli by their area, second moments and box (paper, section 3.3: which regions
- * are circular is decided from the region data). First those with others around the same centre; the smallest first: a
- * target grows from its inside, and costs less so.
+ * are circular is decided from the region data). The smallest first: a target grows from its inside, and costs less so.
  */
 std::vector<RingSeed> findRoundSeeds(const std::vector<Region>& regions);
 
