@@ -53,16 +53,6 @@ TEST(RoundSpots, theRoundestComesFirst)
   EXPECT_LT(1.5 * spots[0].deviation, spots[1].deviation);
 }
 
-TEST(RoundSpots, ringsComeBeforeDisks)
-{
-  cv::Mat image = renderTarget(smallTarget(2.5, .9));
-  cv::circle(image, {80, 80}, 7, cv::Scalar::all(250), cv::FILLED, cv::LINE_AA);
-  const std::vector<omr::RoundSpot> spots = spotsIn(image);
-  ASSERT_EQ(2U, spots.size());
-  EXPECT_LT(cv::norm(spots[0].center - cv::Point2d(203.4, 151.7)), .5);
-  EXPECT_LT(2 * spots[1].deviation, spots[0].deviation) << "the disk is rounder";
-}
-
 TEST(RoundSpots, onlyThoseWithEdgesOfBothKindsMayBeRings)
 {
   for (const double ring : {2., 2.5, 3.5})

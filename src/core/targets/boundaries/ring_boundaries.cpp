@@ -17,6 +17,7 @@ constexpr int MIN_EDGED = 16;               // directions with an edge that make
 constexpr double MIN_WIDTH = 2.5;           // of a ring whose boundaries edgels alone show [px]
 constexpr double MIDDLE = .4;               // of a ring: from here to 1 - MIDDLE
 constexpr double FLANK = 8;                 // farther from an edge nothing is its flank [px]
+constexpr double STEP_REACH = 2;            // [px]
 constexpr double MIN_CONTRAST = .12;        // of the logarithms, length over three channels
 constexpr double MIN_EDGE_CONTRAST = .025;  // where edgels show that there is a boundary
 constexpr double EDGE_SUPPORT = .75;
@@ -61,9 +62,7 @@ double stepReach(const std::vector<double>& radii, std::size_t k)
 {
   const double inside = radii[k] - (k > 0 ? radii[k - 1] : 0);
   const double outside = k + 1 < radii.size() ? radii[k + 1] - radii[k] : inside;
-  // Bent sheets move the outermost boundary most.
-  const double bend = (k + 1 < radii.size() ? .02 : .03) * radii[k];
-  return std::min({.5 * inside, .5 * outside, std::max(2., bend)});
+  return std::min({.5 * inside, .5 * outside, STEP_REACH});
 }
 
 /** Steps of logarithmic colour across a boundary, in every direction. */
@@ -172,6 +171,9 @@ Boundary measureBoundary(const RingProfile& profile, const AngularSupport& suppo
   return boundary;
 }
 
+namespace
+{
+/** Whether a boundary is faint and so near to a stronger one that it may be no more than that one's blurred hue. */
 bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
 {
   const Boundary& boundary = boundaries[k];
@@ -182,8 +184,6 @@ bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k)
          ((k > 0 && is_stronger(boundaries[k - 1])) || (k + 1 < boundaries.size() && is_stronger(boundaries[k + 1])));
 }
 
-namespace
-{
 /** Below 1: no boundary. A faint step must show in nearly all directions. */
 double quality(const std::vector<Boundary>& boundaries, std::size_t k, const AngularSupport& support, AngleBins open)
 {

@@ -38,9 +38,6 @@ std::vector<double> radiiOf(const std::vector<Boundary>& boundaries);
 Boundary measureBoundary(const RingProfile& profile, const AngularSupport& support, const std::vector<double>& radii,
                          std::size_t k);
 
-/** Whether a boundary is faint and so near to a stronger one that it may be no more than that one's blurred hue. */
-bool isBesideStronger(const std::vector<Boundary>& boundaries, std::size_t k);
-
 /**
  * The boundaries between rings of any width: the fewest that explain the profile. A shadow's edge, a scratch or a
  * texture steps in some directions only, an overshoot has the same colour on both sides; neither is a boundary.

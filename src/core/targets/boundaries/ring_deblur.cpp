@@ -13,12 +13,10 @@ namespace
 // A further boundary must explain this much: at .018 one of 147 targets of the field gets a ring too many, at .025 one
 // in "distance" lacks one.
 constexpr double LEAST_EXPLAINED = .0225;  // fall of the root mean square, relative to the strongest contrast
-constexpr double NOTHING_EXPLAINED =
-    .005;                             // by 5 false ones; 727 true ones within 6 px of another explain .006 and more
-constexpr double MOST_LEFT = .6;      // of the root mean square
-constexpr double MERGED_WIDTH = 1.6;  // of the narrowest ring: least width of two
-constexpr double NARROWEST = 2;       // ring [px]
-constexpr double SEARCH_STEP = .5;    // [px]
+constexpr double MOST_LEFT = .6;           // of the root mean square
+constexpr double MERGED_WIDTH = 1.6;       // of the narrowest ring: least width of two
+constexpr double NARROWEST = 2;            // ring [px]
+constexpr double SEARCH_STEP = .5;         // [px]
 // Three of 25 targets in ten path-traced scenes lacked the black ring of 5 to 6 px between two hues; of 2958 others one
 // more has the right number of rings so, and one a wrong one.
 constexpr double MOST_LEFT_OF_SEAM = .7;  // of the root mean square
@@ -65,16 +63,6 @@ double unexplained(const RingProfile& profile, const std::vector<double>& radii)
   const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
   const RingFit::Result whole = RingFit(samples, profile.step, radii).fit();
   return whole.rms / std::max(1., strongestContrast(whole));
-}
-
-bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::size_t k)
-{
-  const std::vector<cv::Vec3d> samples = medianSamples(profile, radii);
-  RingFit fit(samples, profile.step, radii);
-  const RingFit::Result with = fit.fit();
-  fit.erase(k);
-  const RingFit::Result without = fit.fit();
-  return without.rms - with.rms < NOTHING_EXPLAINED * strongestContrast(with);
 }
 
 double mergedBoundary(const RingProfile& profile, const std::vector<double>& radii)

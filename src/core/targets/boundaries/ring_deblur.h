@@ -26,14 +26,6 @@ std::vector<cv::Vec3d> deblurredColors(const RingProfile& profile, const std::ve
 double unexplained(const RingProfile& profile, const std::vector<double>& radii);
 
 /**
- * Whether the blur of the other boundaries explains what looks like a boundary.
- *
- * @param radii of the boundaries [px], at least two.
- * @param k     index of the one in doubt.
- */
-bool isBlur(const RingProfile& profile, const std::vector<double>& radii, std::size_t k);
-
-/**
  * Radius of a boundary within a ring that the blur hides: where two narrow rings of similar brightness meet, the
  * colour has no steepest place.
  *

@@ -19,19 +19,6 @@ void removeBoundary(std::size_t k, RingCandidate& candidate)
   candidate.rings.radii.erase(candidate.rings.radii.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-void removeBlur(RingCandidate& candidate)
-{
-  for (std::size_t k = 0; k < candidate.boundaries.size() && candidate.boundaries.size() > 2;)
-  {
-    if (isBesideStronger(candidate.boundaries, k) && isBlur(*candidate.profile, radiiOf(candidate.boundaries), k))
-    {
-      removeBoundary(k, candidate);
-      continue;
-    }
-    ++k;
-  }
-}
-
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate)
 {
   for (int split = 0; split < MOST_SPLITS; ++split)

@@ -10,9 +10,6 @@ namespace omr
 /** Makes one ring of ring k and the next. */
 void removeBoundary(std::size_t k, RingCandidate& candidate);
 
-/** Removes what the blur of other boundaries explains. */
-void removeBlur(RingCandidate& candidate);
-
 /** Adds the boundaries that the blur hides between narrow rings. */
 void splitMergedRings(const AngularSupport& support, RingCandidate& candidate);
 

@@ -181,7 +181,6 @@ bool completeOpen(EdgelMap& map, const cv::Mat& bgr, RingCandidate& candidate)
     splitMergedRings(support, candidate);
     widenSeam(support, candidate);
   }
-  removeBlur(candidate);
   addPartialBoundaries(*candidate.profile, AngularSupport(edgels, profileReach(rings)), candidate.boundaries,
                        rings.radii);
   Boundary& disk = candidate.boundaries.front();

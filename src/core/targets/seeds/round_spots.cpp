@@ -20,10 +20,7 @@ constexpr double MIN_DETERMINANT = .02;  // over trace^2: else the lines along t
 // degrees) and .18 (blurred, tilted up to 60, on pipes).
 constexpr double FIRST_DEVIATION = .35;
 constexpr double MAX_DEVIATION = .2;
-// Within RING_REACH of the centre, of the squares of slope times radius. Nine of ten small targets have .07 and more,
-// disks, squares and leaves less than .04: three of four spots on boards, half of those in clutter.
-constexpr int RING_REACH = 17;  // [px]
-constexpr double MIN_OTHER_KIND = .04;
+constexpr int RING_REACH = 17;  // from the centre, of the edges of both kinds [px]
 constexpr std::size_t MAX_SPOTS = 40;
 constexpr double APART = 6;  // centres of two spots [px]
 
@@ -202,8 +199,6 @@ std::vector<RoundSpot> findRoundSpots(const cv::Mat& grey)
       apart.back().other_kind = otherKind(grey, spot.center);
     }
   }
-  std::stable_partition(apart.begin(), apart.end(),
-                        [](const RoundSpot& spot) { return spot.other_kind > MIN_OTHER_KIND; });
   return apart;
 }
 

@@ -21,7 +21,7 @@ struct RoundSpot
  * and Guelch, 1987).
  *
  * @param grey H x W, CV_8UC1.
- * @return     those with edges of both kinds first, which rings have, and the roundest of them first; one a place.
+ * @return     the roundest first; one a place.
  */
 std::vector<RoundSpot> findRoundSpots(const cv::Mat& grey);
 
